@@ -1,6 +1,7 @@
 #include "bench/driftmesh_mesher.hpp"
 
-#include <utility>
+#include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "base/stopwatch.hpp"
@@ -8,23 +9,10 @@
 #include "bench/cut.hpp"
 #include "bench/shape.hpp"
 #include "mesh/cdt.hpp"
-#include "mesh/mesher.hpp"
-#include "mesh/to_piece.hpp"
+#include "support/made_mesh.hpp"
 
 namespace driftmesh::bench {
 namespace {
-
-void count(const Triangulation& mesh, ShapeCensus& census) {
-  for (const TriangleId t : ids_of(mesh.triangles))
-    if (mesh.triangles[t].alive()) census.add(shape_of(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)));
-}
-
-void measure(const Triangulation& mesh, MeshRun& run) {
-  ShapeCensus census;
-  count(mesh, census);
-  census.store(run);
-  run.vertices = static_cast<std::int64_t>(mesh.live_vertices());
-}
 
 MeshRun triangulate_domain(const Pslg& pslg) {
   MeshRun run;
@@ -32,26 +20,46 @@ MeshRun triangulate_domain(const Pslg& pslg) {
   const Triangulation mesh = triangulate(pslg);
   run.seconds_cdt = watch.seconds();
   run.peak_bytes = peak_memory();
-  measure(mesh, run);
+  ShapeCensus census;
+  for (const TriangleId t : ids_of(mesh.triangles))
+    if (mesh.triangles[t].alive()) census.add(shape_of(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)));
+  census.store(run);
+  run.vertices = static_cast<std::int64_t>(mesh.live_vertices());
   return run;
 }
 
-MeshRequest request_of(const Bounds& bounds) {
-  MeshRequest request;
-  request.min_angle = bounds.degrees;
-  request.max_area = bounds.area;
-  request.region_areas = false;
+job::Request request_of(const Bounds& bounds) {
+  job::Request request = testing::bounded(bounds.degrees, bounds.area);
+  request.bounds.region_areas = false;
   return request;
 }
 
+/// A part that was refined, and is kept as refinement left it.
+class Part {
+ public:
+  /// Adds times to the run.
+  Part(const Pslg& pslg, const Bounds& bounds, MeshRun& run) {
+    const job::Request request = request_of(bounds);
+    job::Watch watch;
+    refined_ = testing::refined_here(pslg, request, nullptr, record_, watch);
+    for (const job::StageTime& stage : record_.stages)
+      if (stage.name == "triangulate") run.seconds_cdt += stage.seconds;
+    run.seconds_refine += record_.seconds_refine;
+  }
+  [[nodiscard]] const job::RunRecord& record() const { return record_; }
+  /// Frees the rest.
+  [[nodiscard]] Mesh take_mesh() {
+    job::Watch watch;
+    return refined_->take_piece(watch).mesh;
+  }
+
+ private:
+  job::RunRecord record_;
+  std::unique_ptr<job::Refined> refined_;
+};
+
 MeshRun refine(const Pslg& pslg, const Bounds& bounds) {
-  MeshRun run;
-  const MeshResult result = mesh_domain(pslg, request_of(bounds));
-  run.peak_bytes = peak_memory();
-  run.seconds_cdt = result.seconds_triangulate;
-  run.seconds_refine = result.seconds_refine;
-  measure(result.mesh, run);
-  return run;
+  return refine_parts({pslg}, bounds);
 }
 
 }  // namespace
@@ -62,24 +70,24 @@ std::vector<Pslg> parts_of(const Pslg& pslg, double area, double degrees, std::s
   // Coarse enough to be cheap, fine enough for parts of similar size.
   constexpr double kTrianglesInPart = 16;
   const Bounds coarse{area / (kTrianglesInPart * static_cast<double>(pieces)), degrees};
-  return cut(to_piece(mesh_domain(pslg, request_of(coarse)).mesh, pslg), pslg.holes, pieces);
+  return cut(testing::made(pslg, request_of(coarse)).mesh, pslg.holes, pieces);
 }
 
-MeshRun refine_parts(const std::vector<Pslg>& parts, const Bounds& bounds) {
+MeshRun refine_parts(const std::vector<Pslg>& pslgs, const Bounds& bounds) {
   MeshRun run;
-  std::vector<Triangulation> meshes;
-  meshes.reserve(parts.size());
-  for (const Pslg& part : parts) {
-    MeshResult result = mesh_domain(part, request_of(bounds));
-    run.seconds_cdt += result.seconds_triangulate;
-    run.seconds_refine += result.seconds_refine;
-    meshes.push_back(std::move(result.mesh));
+  std::vector<Part> parts;
+  parts.reserve(pslgs.size());
+  for (const Pslg& pslg : pslgs) {
+    parts.emplace_back(pslg, bounds, run);
+    run.peak_bytes = static_cast<std::int64_t>(parts.back().record().peak_refining);
   }
-  run.peak_bytes = peak_memory();
   ShapeCensus census;
-  for (const Triangulation& mesh : meshes) {
-    count(mesh, census);
-    run.vertices += static_cast<std::int64_t>(mesh.live_vertices());
+  for (Part& part : parts) {
+    const Mesh mesh = part.take_mesh();
+    for (const auto& [a, b, c] : mesh.triangles)
+      census.add(shape_of(mesh.points[static_cast<std::size_t>(a)], mesh.points[static_cast<std::size_t>(b)],
+                          mesh.points[static_cast<std::size_t>(c)]));
+    run.vertices += static_cast<std::int64_t>(mesh.points.size());
   }
   census.store(run);
   return run;

@@ -18,7 +18,7 @@ struct MeshRun {
   std::int64_t triangles = 0;   ///< inside the domain
   double smallest_angle = 0;    ///< degrees; measured by the benchmark, not by the mesher
   double largest_area = 0;      ///< likewise
-  double seconds_cdt = 0;       ///< inserting points and segments, and carving holes if that is a separate stage
+  double seconds_cdt = 0;       ///< inserting points and segments, carving holes, and whatever else precedes refinement
   double seconds_refine = 0;    ///< refinement alone: the stage that is compared
   std::int64_t peak_bytes = 0;  ///< the process's peak at the end of refinement
 };

@@ -26,10 +26,10 @@ constexpr std::uint64_t kBytesRegion = 8;
 constexpr std::uint64_t kBytesAttribute = 4;
 constexpr std::uint64_t kSlack = 20;  // the cap is one part in 20 above the limit, for what comes between two looks
 constexpr std::uint64_t kLeastSlack = 4 << 20;
-constexpr double kForecastError = 1.5;  // ratio to be expected where details of the input decide
-constexpr std::int64_t kCapacity = MeshRequest{}.max_triangles;  // triangles in one piece
-constexpr double kMostInFile = 2147483647;                       // triangles; their corners have numbers of 32 bits
-constexpr double kGoodPart = 0.1;  // fraction of the triangles at which a mesh was stopped
+constexpr double kForecastError = 1.5;            // ratio to be expected where details of the input decide
+constexpr std::int64_t kCapacity = kMostRefined;  // triangles in one piece
+constexpr double kMostInFile = 2147483647;        // triangles; their corners have numbers of 32 bits
+constexpr double kGoodPart = 0.1;                 // fraction of the triangles at which a mesh was stopped
 
 std::uint64_t bytes_of_arrays(const Pslg& pslg, const Use& use) {
   return (use.in_subdomains ? kBytesArraysOfRanks : kBytesArrays) + (pslg.regions.empty() ? 0 : kBytesRegion) +

@@ -9,7 +9,7 @@
 #include "job/key.hpp"
 #include "job/request.hpp"
 #include "job/team.hpp"
-#include "mesh/mesher.hpp"
+#include "mesh/handles.hpp"
 #include "mesh/narrow_place.hpp"
 
 namespace driftmesh::job {
@@ -28,10 +28,10 @@ struct Use {
 /// Limits on a mesh. The number of triangles for which memory suffices is an expectation, to refuse in time what cannot
 /// succeed; at work, a process measures what it has.
 struct Limits {
-  std::int64_t triangles = MeshRequest{}.max_triangles;  ///< stop at this number
-  std::uint64_t memory = 0;                              ///< bytes that a process may have; 0: unknown
-  std::int64_t in_memory = INT64_MAX;                    ///< the triangles for which that should suffice
-  std::uint64_t bytes_refined = 0;                       ///< per triangle, once it is refined
+  std::int64_t triangles = kMostRefined;  ///< stop at this number
+  std::uint64_t memory = 0;               ///< bytes that a process may have; 0: unknown
+  std::int64_t in_memory = INT64_MAX;     ///< the triangles for which that should suffice
+  std::uint64_t bytes_refined = 0;        ///< per triangle, once it is refined
   std::uint64_t bytes_finishing = 0;  ///< per triangle, what a process takes after refinement before it frees anything
 
   /// Whether memory is expected to run out first.

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/stopwatch.hpp"
 #include "distributed/exchange.hpp"
 #include "distributed/write_distributed.hpp"
 #include "io/mesh_file.hpp"
@@ -11,8 +12,8 @@
 #include "job/write_files.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/interpolate_attributes.hpp"
-#include "mesh/mesher.hpp"
 #include "mesh/narrow_place.hpp"
+#include "mesh/refiner.hpp"
 #include "mesh/to_piece.hpp"
 
 namespace driftmesh::job {
@@ -38,30 +39,27 @@ class OnePiece final : public Refined {
       : domain_(std::move(order.whole->domain)),
         limits_(limits),
         holes_(std::move(order.whole->triangulated.holes)),
-        threads_(threads) {
-    result_.mesh = std::move(order.whole->triangulated.mesh);
-    result_.bounds = std::move(order.whole->triangulated.bounds);
-    refine_domain(result_, limits_.triangles, order.whole->triangulated.forecast,
-                  [&](std::int64_t triangles, double forecast) {
-                    watch.refining(triangles, forecast);
-                    by_memory_ = memory_is_full(limits_, triangles);
-                    return !by_memory_;
-                  });
-    triangles_ = static_cast<std::int64_t>(result_.mesh.live_triangles());
+        threads_(threads),
+        mesh_(std::move(order.whole->triangulated.mesh)),
+        bounds_(std::move(order.whole->triangulated.bounds)) {
+    refine(order.whole->triangulated.forecast, watch);
   }
 
   void report(RunRecord& record) override {
-    record.seconds_refine = result_.seconds_refine;
+    record.seconds_refine = seconds_;
     record.peak_refining = peak_memory();
     record.stopped_by = Limits::key(by_memory_);
-    record_mesh(record, result_, threads_);
+    record.complete = complete_;
+    const bool capped = room_under_cap() != UINT64_MAX;  // the stacks of threads would count
+    add_part(record, mesh_, bounds_, complete_, !capped && threads_ > 1);
+    add_counters(record, counters_);
   }
 
   [[nodiscard]] const RunPlan* plan() const override { return nullptr; }
 
   [[nodiscard]] KeyText shortfall(bool kept) override {
-    if (result_.complete) return {};
-    result_.mesh = {};  // its memory is needed
+    if (complete_) return {};
+    mesh_ = {};  // its memory is needed
     return stopped_message(limits_, by_memory_, triangles_, kept, find_narrow_place(triangulate(domain_.pslg)));
   }
 
@@ -83,8 +81,28 @@ class OnePiece final : public Refined {
   }
 
  private:
+  /// Tells the watch how far it is before and after each of a few milliseconds, which make about a megabyte.
+  void refine(double forecast, Watch& watch) {
+    constexpr std::int64_t kInsertions = 10'000;
+    const Stopwatch refining;
+    Refiner refiner(mesh_, bounds_);
+    refiner.limit_triangles(limits_.triangles);
+    const auto goes_on = [&] {
+      const auto triangles = static_cast<std::int64_t>(mesh_.live_triangles());
+      watch.refining(triangles, forecast);
+      by_memory_ = memory_is_full(limits_, triangles);
+      return !by_memory_;
+    };
+    Refiner::Status status = Refiner::Status::kBudget;
+    while (goes_on() && status == Refiner::Status::kBudget) status = refiner.refine(kInsertions);
+    complete_ = status == Refiner::Status::kDone;
+    counters_ = refiner.counters();
+    triangles_ = static_cast<std::int64_t>(mesh_.live_triangles());
+    seconds_ = refining.seconds();
+  }
+
   [[nodiscard]] Mesh converted() {
-    Mesh mesh = to_piece(std::exchange(result_.mesh, {}), domain_.pslg);
+    Mesh mesh = to_piece(std::exchange(mesh_, {}), domain_.pslg);
     interpolate_attributes(domain_.pslg, mesh);
     set_depths(domain_.rasters, mesh);
     return mesh;
@@ -94,7 +112,11 @@ class OnePiece final : public Refined {
   Limits limits_;
   std::vector<Point> holes_;
   std::int32_t threads_;
-  MeshResult result_;
+  Triangulation mesh_;
+  QualityBounds bounds_;
+  RefineCounters counters_;
+  double seconds_ = 0;
+  bool complete_ = false;
   bool by_memory_ = false;
   std::int64_t triangles_ = 0;
 };

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "job/memory.hpp"
 #include "job/value.hpp"
 
 namespace driftmesh::job {
@@ -46,13 +45,6 @@ void record_domain(RunRecord& run, const Request& request, const Domain& domain)
   run.simplified = domain.simplified;
   run.min_angle = request.bounds.angle;
   run.sizing = sizing_words(request.sizing);
-}
-
-void record_mesh(RunRecord& run, const MeshResult& result, std::int32_t threads) {
-  run.complete = result.complete;
-  const bool capped = room_under_cap() != UINT64_MAX;  // the stacks of threads would count
-  add_part(run, result.mesh, result.bounds, result.complete, !capped && threads > 1);
-  add_counters(run, result.counters);
 }
 
 }  // namespace driftmesh::job

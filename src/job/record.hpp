@@ -10,7 +10,6 @@
 #include "job/mesh_facts.hpp"
 #include "job/request.hpp"
 #include "job/watch.hpp"
-#include "mesh/mesher.hpp"
 #include "runtime/rank_outcome.hpp"
 
 namespace driftmesh::job {
@@ -64,8 +63,5 @@ struct RunRecord : MeshFacts {
 
 /// Fills in the request and the domain.
 void record_domain(RunRecord& run, const Request& request, const Domain& domain);
-
-/// Fills in the facts of the finished mesh: counts, angles, areas, exceptions, digest. `threads`: that may inspect it.
-void record_mesh(RunRecord& run, const MeshResult& result, std::int32_t threads);
 
 }  // namespace driftmesh::job

@@ -8,7 +8,7 @@
 #include "cluster/cluster_spec.hpp"
 #include "driftmesh/defaults.hpp"
 #include "mapping/mapping.hpp"
-#include "mesh/mesher.hpp"
+#include "mesh/handles.hpp"
 #include "runtime/agenda.hpp"
 #include "runtime/plan_run.hpp"
 #include "runtime/run_plan.hpp"
@@ -65,7 +65,7 @@ struct Request {
   } sizing;
 
   struct Limits {
-    std::int64_t max_triangles = MeshRequest{}.max_triangles;
+    std::int64_t max_triangles = kMostRefined;
     std::int64_t max_memory = 0;  ///< bytes; 0: 90 % of what the machine has free
     bool keep_incomplete = false;
   } limits;

@@ -17,7 +17,6 @@
 #include "mesh/corners.hpp"
 #include "mesh/domain_warnings.hpp"
 #include "mesh/forecast.hpp"
-#include "mesh/mesher.hpp"
 #include "mesh/narrow_place.hpp"
 
 namespace driftmesh::job {
@@ -36,10 +35,10 @@ double area_bound_of(const Request::Bounds& bounds, const Triangulation& mesh, s
 }
 
 QualityBounds bounds_of(const Request& request, const Domain& domain, const Triangulation& mesh, std::int32_t ranks) {
-  return driftmesh::bounds_of(domain.pslg, {.min_angle = request.bounds.angle,
-                                            .max_area = area_bound_of(request.bounds, mesh, ranks),
-                                            .region_areas = request.bounds.region_areas,
-                                            .size = domain.size.get()});
+  return {.min_angle = request.bounds.angle,
+          .max_area = area_bound_of(request.bounds, mesh, ranks),
+          .region_max_area = request.bounds.region_areas ? region_areas(domain.pslg) : std::vector<double>(),
+          .size = domain.size.get()};
 }
 
 /// One place where the background mesh does not say what size is asked for, if there is one.

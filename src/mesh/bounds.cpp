@@ -7,6 +7,12 @@
 
 namespace driftmesh {
 
+std::vector<double> region_areas(const Pslg& pslg) {
+  std::vector<double> areas{0};
+  for (const Pslg::Region& region : pslg.regions) areas.push_back(region.max_area);
+  return areas;
+}
+
 void require_possible(const QualityBounds& bounds) {
   if (!(bounds.min_angle >= 0 && bounds.min_angle <= kMaxAngle))
     throw Error("the angle bound must lie between 0 and " + std::to_string(static_cast<int>(kMaxAngle)) +

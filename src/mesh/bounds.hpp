@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "driftmesh/defaults.hpp"
+#include "driftmesh/pslg.hpp"
 #include "driftmesh/size_field.hpp"
 
 namespace driftmesh {
@@ -25,6 +26,9 @@ struct QualityBounds {
 /// The largest angle bound that is accepted, in degrees. In practice refinement terminates on every input up to about
 /// 33 degrees; proofs stop earlier (docs/guarantees.md).
 inline constexpr double kMaxAngle = 34;
+
+/// The area bounds that an input sets by region labels; 0 for label 0, which is outside all regions.
+[[nodiscard]] std::vector<double> region_areas(const Pslg& pslg);
 
 /// Throws Error if a bound is NaN or the angle bound lies outside [0, kMaxAngle].
 void require_possible(const QualityBounds& bounds);

@@ -51,6 +51,8 @@ enum class HalfEdge : std::int32_t {};
 
 /// A half-edge must fit 31 bits.
 inline constexpr std::int64_t kMaxTriangles = (std::int64_t{1} << 29) - 1;
+/// Refinement stops at this many, since an insertion makes several at once.
+inline constexpr std::int64_t kMostRefined = kMaxTriangles - 64;
 
 /// The kind of a vertex in one integer: the index of a point of the input (small), ~s for the midpoint of subsegment s
 /// (negative), or one of the large values below.

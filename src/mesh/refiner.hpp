@@ -38,7 +38,7 @@ class Refiner : private Improver<Refiner> {
   Status refine() { return refine(INT64_MAX); }
 
   /// Stop at this many live triangles (kFull). Default: the capacity of the handles.
-  void limit_triangles(std::int64_t most) { state_.max_triangles = std::min(most, kMaxTriangles - 64); }
+  void limit_triangles(std::int64_t most) { state_.max_triangles = std::min(most, kMostRefined); }
 
   /// See Improver.
   bool add_split_point(RootId root, dyadic::Path path);

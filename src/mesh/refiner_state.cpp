@@ -56,7 +56,7 @@ std::string RefinerState::fault(const Triangulation& mesh, const QualityBounds& 
     if (!mesh.roots.has(p.root) || p.path == 0 || dyadic::depth(p.path) > dyadic::kMaxDepth)
       return "a split point is on no root";
   if (!is_sound(counters)) return "a counter is negative or impossibly large";
-  if (max_triangles > kMaxTriangles - 64) return "the limit on triangles exceeds what handles can name";
+  if (max_triangles > kMostRefined) return "the limit on triangles exceeds what handles can name";
   if (bounds.size != nullptr && size.size() < mesh.points.size()) return "the size field is missing at some vertex";
   const std::size_t labels = bounds.region_max_area.size();
   if (labels > 1 && std::any_of(mesh.region.begin(), mesh.region.end(), [&](auto label) { return label >= labels; }))

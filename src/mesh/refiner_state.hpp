@@ -27,7 +27,7 @@ struct RefinerState {
   std::unordered_set<SubsegmentId> unsplittable;  ///< coordinates are too coarse for their midpoints
   std::vector<SplitPoint<RootId>> made;           ///< split points not yet taken by take_split_points
   GrowingArray<double, VertexId> size;            ///< the size field at each vertex; empty without one
-  std::int64_t max_triangles = kMaxTriangles - 64;
+  std::int64_t max_triangles = kMostRefined;
   RefineCounters counters;
 
   /// The state of a refiner that has finished `mesh`, with no work queued: what it does when it is told of points is

@@ -15,7 +15,6 @@
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/exceptions.hpp"
-#include "mesh/mesher.hpp"
 #include "protocol/counter_sum.hpp"
 #include "support/delaying_transport.hpp"
 #include "verify/report_text.hpp"
@@ -139,7 +138,8 @@ Outcome run(const Job& job) {
   prepare_corners(mesh);
   Outcome outcome;
   outcome.leads = team.leads();
-  outcome.bounds = bounds_of(job.input, {.max_area = summarize_angles(mesh).total_area / job.cells});
+  outcome.bounds.max_area = summarize_angles(mesh).total_area / job.cells;
+  outcome.bounds.region_max_area = region_areas(job.input);
   job::Order order;
   order.plan = plan_of(job, outcome.bounds, mesh, team.ranks());
   order.pslg = job.input;

@@ -5,7 +5,7 @@
 
 #include "driftmesh/error.hpp"
 #include "driftmesh/repair.hpp"
-#include "mesh/to_piece.hpp"
+#include "support/made_mesh.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
 
@@ -51,19 +51,18 @@ Point take_point(ByteReader& bytes, const Grid& grid, bool nudged) {
 
 }  // namespace
 
-MeshingOutcome repair_mesh_and_verify(Pslg input, const MeshRequest& request) {
+MeshingOutcome repair_mesh_and_verify(Pslg input, const job::Request& request) {
   MeshingOutcome outcome;
   try {
+    const testing::Made made = testing::made(input, request);
     repair(input);
-    const MeshResult result = mesh_domain(input, request);
-    const Mesh piece = to_piece(result.mesh, input);
     VerifyOptions options;
-    options.min_angle = result.complete ? request.min_angle : 0;
-    options.max_area = result.complete ? request.max_area : 0;
-    options.region_areas = result.complete && request.region_areas;
-    const VerifyReport report = verify(piece, input, options);
-    outcome.complete = result.complete;
-    outcome.triangles = piece.triangles.size();
+    options.min_angle = made.record.complete ? request.bounds.angle : 0;
+    options.max_area = made.record.complete ? request.bounds.area : 0;
+    options.region_areas = made.record.complete && request.bounds.region_areas;
+    const VerifyReport report = verify(made.mesh, input, options);
+    outcome.complete = made.record.complete;
+    outcome.triangles = made.mesh.triangles.size();
     outcome.exceptions = report.quality.exception_count();
     if (!report.accepted()) outcome.failure = verdict_text(report, options) + "\n" + report_text(report, options);
   } catch (const Error& error) {
@@ -81,10 +80,9 @@ MeshingCase case_from_bytes(std::span<const std::uint8_t> data) {
   result.coarse = (form & 3) == 0;
   const Grid grid{(form & 2) != 0 ? 0.1 : 1.0, (form & 4) != 0 ? 1e6 : 0.0};
   constexpr double kAngles[] = {0, 10, 20, 20.7, 25, 28, 30, 20};
-  result.request.min_angle = kAngles[bounds & 7];
   constexpr double kAreas[] = {0, 0, 30, 3, 0.5, 0};
-  result.request.max_area = kAreas[(bounds >> 3) % 6] * grid.step * grid.step;
-  result.request.max_triangles = result.coarse ? 60000 : 10000;
+  result.request = testing::bounded(kAngles[bounds & 7], kAreas[(bounds >> 3) % 6] * grid.step * grid.step,
+                                    result.coarse ? 60000 : 10000);
 
   const int points = 3 + (counts & 15), holes = counts >> 4 & 3, regions = counts >> 6 & 3;
   for (int i = 0; i < points; ++i) input.points.push_back(take_point(bytes, grid, nudged));

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "driftmesh/pslg.hpp"
-#include "mesh/mesher.hpp"
+#include "job/request.hpp"
 
 namespace driftmesh::oracles {
 
@@ -19,14 +19,14 @@ struct MeshingOutcome {
   std::size_t exceptions = 0;  ///< angles below the bound, allowed
 };
 
-/// Repairs the input, meshes it and verifies the mesh against it. An Error is a valid outcome; a wrong mesh is a
+/// Makes a mesh of the input and verifies it against the repaired input. An Error is a valid outcome; a wrong mesh is a
 /// failure. Bounds are checked unless the cap was reached.
-[[nodiscard]] MeshingOutcome repair_mesh_and_verify(Pslg input, const MeshRequest& request);
+[[nodiscard]] MeshingOutcome repair_mesh_and_verify(Pslg input, const job::Request& request);
 
 /// An input and a request.
 struct MeshingCase {
   Pslg input;
-  MeshRequest request;
+  job::Request request;
   bool coarse = false;  ///< no features are smaller than those of whole grid points and crossings between them
 };
 

@@ -19,10 +19,10 @@
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/exceptions.hpp"
-#include "mesh/mesher.hpp"
 #include "oracles/meshing.hpp"
 #include "oracles/random_pslg.hpp"
 #include "property/cases.hpp"
+#include "support/made_mesh.hpp"
 #include "support/refine_together.hpp"
 
 // Decompositions of random domains: invariants, and refinement of the subdomains.
@@ -367,14 +367,12 @@ TEST_CASE("narrow corners take as few triangles in subdomains as in one piece") 
     for (const auto& [a, b] : {std::pair(0, 1), {1, 2}, {2, 3}, {3, 0}, {4, 5}, {4, 6}})
       input.segments.push_back({place[a], place[b], 1});
     CAPTURE(poly_text(input));
-    MeshRequest request;
-    request.max_triangles = 100000;
-    const std::size_t in_one_piece = mesh_domain(input, request).mesh.live_triangles();
+    const std::size_t in_one_piece = testing::made(input, testing::bounded(20, 0, 100000)).mesh.triangles.size();
     DecomposeOptions options;
     options.subdomains = static_cast<std::int32_t>(1 + i % 3);
     std::size_t in_subdomains = 0;
     for (const SubdomainMesh& part :
-         testing::refine_together(decompose(prepared(input), options), {request.min_angle, 0, {}, nullptr}).parts)
+         testing::refine_together(decompose(prepared(input), options), {.min_angle = 20, .region_max_area = {}}).parts)
       in_subdomains += part.mesh.live_triangles();
     CHECK(in_subdomains < 1.5 * static_cast<double>(in_one_piece) + 50);
     whole += in_one_piece;

@@ -14,13 +14,13 @@
 #include "driftmesh/repair.hpp"
 #include "geometry/segment_geometry.hpp"
 #include "geometry/triangle_geometry.hpp"
+#include "mesh/bound_forecast.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
-#include "mesh/forecast.hpp"
-#include "mesh/refiner.hpp"
 #include "property/cases.hpp"
 #include "pslg/generators.hpp"
 #include "pslg/poly_file.hpp"
+#include "support/made_mesh.hpp"
 
 // The forecast of the number of triangles against the number that refinement makes. Most of these inputs did not serve
 // to fit its constants.
@@ -30,46 +30,26 @@ using namespace driftmesh::testing;
 
 namespace {
 
-Triangulation prepared(Pslg pslg, double angle) {
-  repair(pslg);
-  Triangulation mesh = triangulate(pslg);
-  prepare_corners(mesh, {angle, false});
-  return mesh;
-}
-
-double refined_size(Triangulation mesh, const QualityBounds& bounds) {
-  Refiner refiner(mesh, bounds);
-  refiner.limit_triangles(1'000'000);
-  CHECK(refiner.refine() == Refiner::Status::kDone);
-  return static_cast<double>(mesh.live_triangles());
-}
-
-QualityBounds angle_alone(double angle) {
-  QualityBounds bounds;
-  bounds.min_angle = angle;
-  return bounds;
-}
-
-double area_of(const Triangulation& mesh) {
-  double area = 0;
-  for (const TriangleId t : ids_of(mesh.triangles))
-    if (mesh.triangles[t].alive()) area += signed_area(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
-  return area;
+job::RunRecord record_of(const Pslg& pslg, double angle, double area = 0) {
+  job::RunRecord record = made(pslg, bounded(angle, area, 1'000'000)).record;
+  CHECK(record.complete);
+  return record;
 }
 
 /// Prints one row of a table of ratios, and returns the ratio.
-double forecast_over_real(const std::string& name, const Triangulation& mesh, const QualityBounds& bounds) {
-  const double forecast = forecast_triangles(mesh, bounds), real = refined_size(mesh, bounds);
-  std::printf("%-28s %4.0f degrees %10.3g area: forecast %8.0f, real %8.0f, ratio %.2f\n", name.c_str(),
-              bounds.min_angle, bounds.max_area, forecast, real, forecast / real);
-  return forecast / real;
+double forecast_over_real(const std::string& name, const Pslg& pslg, double angle, double area) {
+  const job::RunRecord record = record_of(pslg, angle, area);
+  const auto real = static_cast<double>(record.triangles);
+  std::printf("%-28s %4.0f degrees %10.3g area: forecast %8.0f, real %8.0f, ratio %.2f\n", name.c_str(), angle, area,
+              record.forecast, real, record.forecast / real);
+  return record.forecast / real;
 }
 
 /// Returns the ratio.
-double check_within(double factor, const std::string& name, const Triangulation& mesh, const QualityBounds& bounds) {
-  const double ratio = forecast_over_real(name, mesh, bounds);
+double check_within(double factor, const std::string& name, const Pslg& pslg, double angle, double area = 0) {
+  const double ratio = forecast_over_real(name, pslg, angle, area);
   CAPTURE(name);
-  CAPTURE(bounds.min_angle);
+  CAPTURE(angle);
   CHECK(ratio <= factor);
   CHECK(ratio >= 1 / factor);
   return ratio;
@@ -217,6 +197,13 @@ class Needles final : public SizeField {
   double far_, least_;
 };
 
+Triangulation triangulated(Pslg pslg) {
+  repair(pslg);
+  Triangulation mesh = triangulate(pslg);
+  prepare_corners(mesh, {20, false});
+  return mesh;
+}
+
 /// The share of the most that can be asked for which is asked for, where it is much more than there is.
 double share_of_most(const Triangulation& mesh, const QualityBounds& bounds) {
   const double total = BoundForecast(mesh, bounds).total(), most = most_in_total(mesh, bounds);
@@ -229,24 +216,22 @@ double share_of_most(const Triangulation& mesh, const QualityBounds& bounds) {
 TEST_CASE("without a bound on size, the forecast is within a factor of 1.5 of the mesh on generated inputs") {
   for (const Generated& g : kGenerated) {
     const Pslg pslg = generate(g.name, g.parameters);
-    for (const double angle : {20.0, 25.0, 30.0})
-      check_within(1.5, g.words(), prepared(pslg, angle), angle_alone(angle));
+    for (const double angle : {20.0, 25.0, 30.0}) check_within(1.5, g.words(), pslg, angle);
   }
 }
 
 TEST_CASE("at 33 degrees, where refinement itself becomes erratic, the forecast is within a factor of 2") {
-  for (const Generated& g : kGenerated)
-    check_within(2, g.words(), prepared(generate(g.name, g.parameters), 33), angle_alone(33));
+  for (const Generated& g : kGenerated) check_within(2, g.words(), generate(g.name, g.parameters), 33);
 }
 
 TEST_CASE("where bounds on area and details of the input both matter, the forecast is within a factor of 1.25") {
   for (const Generated& g : kGenerated) {
+    const Pslg pslg = generate(g.name, g.parameters);
     for (const double angle : {20.0, 30.0}) {
-      const Triangulation mesh = prepared(generate(g.name, g.parameters), angle);
+      const job::RunRecord alone = record_of(pslg, angle);
       for (const double more : {1.0, 10.0}) {
-        QualityBounds bounds = angle_alone(angle);
-        bounds.max_area = 1.55 * area_of(mesh) / (more * refined_size(mesh, bounds));
-        check_within(more < 2 ? 1.4 : 1.2, g.words(), mesh, bounds);
+        const double area = 1.55 * alone.shape.total_area / (more * static_cast<double>(alone.triangles));
+        check_within(more < 2 ? 1.4 : 1.2, g.words(), pslg, angle, area);
       }
     }
   }
@@ -258,8 +243,8 @@ TEST_CASE("the forecast sees narrow gaps and small corners") {
   double squares = 0;
   for (std::int64_t i = 0; i < cases; ++i) {
     for (const double angle : {20.0, 30.0}) {
-      for (const double ratio : {check_within(2, "gaps", prepared(with_gaps(random), angle), angle_alone(angle)),
-                                 check_within(2, "corners", prepared(with_corners(random), angle), angle_alone(angle))})
+      for (const double ratio :
+           {check_within(2, "gaps", with_gaps(random), angle), check_within(2, "corners", with_corners(random), angle)})
         squares += std::pow(std::log(ratio), 2);
     }
   }
@@ -274,7 +259,7 @@ TEST_CASE("the forecast is within a factor of 1.5 on real inputs") {
   }
   for (const char* file : {"A.poly", "chesapeake.poly", "cylinder_flow.poly", "key.poly", "pipe.poly"}) {
     const Pslg pslg = read_poly((folder / file).string());
-    for (const double angle : {20.0, 30.0, 33.0}) check_within(1.5, file, prepared(pslg, angle), angle_alone(angle));
+    for (const double angle : {20.0, 30.0, 33.0}) check_within(1.5, file, pslg, angle);
   }
 }
 
@@ -284,7 +269,7 @@ TEST_CASE("what the least length asks for everywhere is not less than what is as
   double area = 0, spots = 0, needles = 0;
   for (std::int64_t i = 0; more_cases(i, 60, area > 0.15 && spots > 0.05 && needles > 0.6); ++i) {
     CAPTURE(i);
-    const Triangulation mesh = prepared(i % 2 == 0 ? with_gaps(random) : square(), 20);
+    const Triangulation mesh = triangulated(i % 2 == 0 ? with_gaps(random) : square());
     QualityBounds bounds;
     if (i % 3 == 0) bounds.max_area = std::pow(10, exponent(random));
     area = std::max(area, share_of_most(mesh, bounds));

@@ -7,11 +7,11 @@
 
 #include "driftmesh/repair.hpp"
 #include "mesh/cdt.hpp"
-#include "mesh/mesher.hpp"
 #include "mesh/to_piece.hpp"
 #include "oracles/mesh_oracle.hpp"
 #include "oracles/meshing.hpp"
 #include "oracles/random_pslg.hpp"
+#include "support/made_mesh.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
 
@@ -20,6 +20,8 @@
 
 using namespace driftmesh;
 using namespace driftmesh::oracles;
+using testing::bounded;
+using testing::made;
 
 namespace {
 
@@ -38,14 +40,12 @@ Point random_point(std::mt19937_64& random, const RandomPslgShape& shape) {
   return {shape.offset + shape.scale * x, shape.offset + shape.scale * y};
 }
 
-MeshRequest random_request(std::uint64_t seed, const RandomPslgShape& shape) {
+job::Request random_request(std::uint64_t seed, const RandomPslgShape& shape) {
   std::mt19937_64 random(seed * 77 + 5);
   const double angles[] = {0, 10, 20, 20.7, 25, 28, 30, 33};
-  MeshRequest request;
-  request.min_angle = angles[random() % 8];
-  request.max_area = random() % 2 == 0 ? 0 : shape.scale * shape.scale * std::exp2(-static_cast<double>(random() % 9));
-  request.max_triangles = 200000;
-  return request;
+  const double angle = angles[random() % 8];
+  const double area = random() % 2 == 0 ? 0 : shape.scale * shape.scale * std::exp2(-static_cast<double>(random() % 9));
+  return bounded(angle, area, 200000);
 }
 
 }  // namespace
@@ -78,9 +78,9 @@ TEST_CASE("refined meshes of random inputs keep every guarantee") {
     CAPTURE(seed);
     const RandomPslgShape shape = make_random_shape(seed);
     const RandomPslg random = make_random_pslg(seed, shape);
-    const MeshRequest request = random_request(seed, shape);
-    CAPTURE(request.min_angle);
-    CAPTURE(request.max_area);
+    const job::Request request = random_request(seed, shape);
+    CAPTURE(request.bounds.angle);
+    CAPTURE(request.bounds.area);
     CAPTURE(poly_text(random.input));
     const MeshingOutcome outcome = repair_mesh_and_verify(random.input, request);
     CHECK(outcome.failure == "");
@@ -102,10 +102,7 @@ TEST_CASE("refined meshes of small random inputs cover their segments, by ration
     const RandomPslgShape shape = make_random_shape(seed);
     const RandomPslg random = make_random_pslg(seed, shape);
     CAPTURE(poly_text(random.input));
-    MeshRequest request;
-    request.min_angle = 20;
-    const MeshResult result = mesh_domain(random.input, request);
-    const Mesh mesh = to_piece(result.mesh, random.input);
+    const Mesh mesh = made(random.input, bounded(20)).mesh;
     const double tolerance = 64 * 0x1p-52 * (std::fabs(shape.offset) + shape.scale);
     CHECK(check_coverage(mesh, random.input, tolerance, std::vector<bool>(random.input.segments.size(), false)) ==
           kRight);
@@ -121,8 +118,8 @@ TEST_CASE("arbitrary bytes become inputs that are rejected or meshed correctly")
     std::vector<std::uint8_t> bytes(4 + random() % 60);
     for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random());
     const MeshingCase c = case_from_bytes(bytes);
-    CAPTURE(c.request.min_angle);
-    CAPTURE(c.request.max_area);
+    CAPTURE(c.request.bounds.angle);
+    CAPTURE(c.request.bounds.area);
     CAPTURE(poly_text(c.input));
     const MeshingOutcome outcome = repair_mesh_and_verify(c.input, c.request);
     CHECK(outcome.failure == "");
@@ -152,9 +149,7 @@ TEST_CASE("mesher and check agree on details of any size, at the origin and else
     for (int k = 0; k < (cluster ? 6 : 2); ++k)
       input.points.push_back({place.x + size * (1 + 4 * in(random)), place.y + size * (1 + 4 * in(random))});
     CAPTURE(poly_text(input));
-    MeshRequest request;
-    request.max_triangles = 200000;
-    const MeshingOutcome outcome = repair_mesh_and_verify(input, request);
+    const MeshingOutcome outcome = repair_mesh_and_verify(input, bounded(20, 0, 200000));
     CHECK(outcome.failure == "");
     CHECK(outcome.complete);
     exceptions += outcome.exceptions;

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <random>
 #include <string>
 #include <vector>
 
-#include "decompose/decompose.hpp"
 #include "driftmesh/error.hpp"
-#include "mesh/cdt.hpp"
-#include "mesh/corners.hpp"
-#include "mesh/mesher.hpp"
+#include "geometry/triangle_geometry.hpp"
 #include "property/cases.hpp"
 #include "raster/ascii_grid.hpp"
 #include "raster/nearest_values.hpp"
@@ -19,7 +17,8 @@
 #include "sizing/expression_field.hpp"
 #include "sizing/graded_field.hpp"
 #include "sizing/named_raster.hpp"
-#include "support/refine_together.hpp"
+#include "support/made_mesh.hpp"
+#include "temporary_folder.hpp"
 
 // Rasters of random values against what is found in their arrays one by one, and meshes whose sizes they ask for.
 
@@ -175,11 +174,6 @@ Pslg square(double side) {
   return pslg;
 }
 
-void add_triangles(const Triangulation& mesh, std::vector<Corner>& all) {
-  for (const TriangleId t : ids_of(mesh.triangles))
-    if (mesh.triangles[t].alive()) all.push_back({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
-}
-
 double cross(const Corner& t) {
   return (t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[1].y - t[0].y) * (t[2].x - t[0].x);
 }
@@ -199,37 +193,35 @@ Drawn random_basin(Random& random) {
   return drawn;
 }
 
+/// As an ESRI ASCII grid with square cells.
+void write_grid(const Drawn& drawn, const std::string& file) {
+  const RasterFrame& f = drawn.frame;
+  std::ofstream out(file);
+  out.precision(9);
+  out << "ncols " << f.columns << "\nnrows " << f.rows << "\nxllcenter " << f.first.x << "\nyllcenter " << f.first.y
+      << "\ncellsize " << f.dx << '\n';
+  for (std::int64_t j = f.rows; j-- > 0;)
+    for (std::int64_t i = 0; i < f.columns; ++i) out << drawn.value(i, j) << (i + 1 < f.columns ? ' ' : '\n');
+}
+
 }  // namespace
 
 TEST_CASE("every triangle obeys what a raster asks for, in one piece and in subdomains, with and without gradation") {
   Random random = seeded_generator("raster meshes");
   for (std::int64_t tried = 0; more_cases(tried, 40, true); ++tried) {
     const Drawn drawn = random_basin(random);
-    const NamedRasters rasters{{"depth", std::make_shared<const Raster>(drawn.grid())}};
-    const Pslg pslg = square(100);
-    auto field = std::make_unique<ExpressionField>("max(0.4, 1.5*sqrt(max(depth, 0.1)))", 0, 0.05, &pslg, rasters);
-    std::unique_ptr<SizeField> graded;
-    if (tried % 2 == 1) graded = std::make_unique<GradedField>(std::move(field), 0.3, Box{{0, 0}, {100, 100}});
-    const SizeField& size = graded ? *graded : *field;
-    std::vector<Corner> mesh;
-    if (tried % 4 < 2) {
-      MeshRequest request;
-      request.size = &size;
-      const MeshResult result = mesh_domain(pslg, request);
-      REQUIRE(result.complete);
-      add_triangles(result.mesh, mesh);
-    } else {
-      Triangulation coarse = triangulate(pslg);
-      prepare_corners(coarse);
-      DecomposeOptions options;
-      options.subdomains = 6;
-      options.bounds.size = &size;
-      for (const SubdomainMesh& part : refine_together(decompose(coarse, options), options.bounds).parts)
-        add_triangles(part.mesh, mesh);
-    }
+    const TemporaryFolder folder;
+    job::Request request;
+    request.input.rasters["depth"] = (folder.path() / "depth.asc").string();
+    write_grid(drawn, request.input.rasters["depth"]);
+    request.sizing.expression = "max(0.4, 1.5*sqrt(max(depth, 0.1)))";
+    request.sizing.gradation = tried % 2 == 1 ? 0.3 : 0;
+    request.decomposition.subdomains = tried % 4 < 2 ? 1 : 6;
+    const Mesh mesh = made(square(100), request).mesh;
     // Each point of the grid, which is where values are extreme, by the array itself.
     double worst = 0;
-    for (const Corner& t : mesh) {
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const Corner t{mesh.points[a], mesh.points[b], mesh.points[c]};
       const Box box = Box::of(t);
       const double edge = std::sqrt(cross(t) * 2 / std::sqrt(3.0));
       const auto to = [](double x, double first) { return (x - first) / 1.25; };

@@ -8,16 +8,13 @@
 #include <random>
 #include <vector>
 
-#include "decompose/decompose.hpp"
 #include "driftmesh/generate.hpp"
 #include "driftmesh/repair.hpp"
-#include "mesh/cdt.hpp"
-#include "mesh/exceptions.hpp"
-#include "mesh/mesher.hpp"
+#include "geometry/predicates.hpp"
 #include "oracles/meshing.hpp"
 #include "property/cases.hpp"
 #include "support/cut_mesh_size.hpp"
-#include "support/prepared_mesh.hpp"
+#include "support/made_mesh.hpp"
 #include "support/separator_room_oracle.hpp"
 
 // Separators cost few triangles, wherever the domain has points that nearly lie on a line or nearly touch.
@@ -140,10 +137,6 @@ constexpr Kind kKinds[] = {{"turned grid", turned_grid},
                            {"touching fractures", touching_fractures},
                            {"coast", coast}};
 
-double area_of(const Triangulation& mesh) {
-  return summarize_angles(mesh).total_area;
-}
-
 /// The triangles of a mesh in subdomains over those that are allowed: at most 1 where all is well.
 double relative_size(const testing::CutMeshSize& cut, std::size_t in_one_piece) {
   return static_cast<double>(cut.triangles) /
@@ -155,24 +148,18 @@ struct Tally {
   double worst = 0;
 };
 
-/// Cuts a repaired domain into several numbers of subdomains, and compares meshes to those in one piece.
+/// Makes meshes of a domain in several numbers of subdomains, and compares them to those in one piece.
 void check_cuts(const Pslg& input, Tally& tally) {
-  const Triangulation mesh = testing::prepared(input);
+  const double area = testing::made(input, testing::bounded(20)).record.shape.total_area;
   for (const double asked : {0.0, 3000.0})
     for (const int n : {2, 16, 60}) {
       CAPTURE(asked);
       CAPTURE(n);
-      MeshRequest request;
-      if (asked > 0) request.max_area = area_of(mesh) / asked;
-      const MeshResult whole = mesh_domain(input, request);
-      const std::size_t in_one_piece = whole.mesh.live_triangles();
-      DecomposeOptions options;
-      options.subdomains = n;
-      options.bounds = whole.bounds;
-      const Decomposition d = decompose(mesh, options);
-      CHECK(testing::separator_without_room(d) == "");
+      job::Request request = testing::bounded(20, asked > 0 ? area / asked : 0);
+      const std::size_t in_one_piece = testing::made(input, request).mesh.triangles.size();
       const auto most = static_cast<std::int64_t>(20000 + 4 * in_one_piece);
-      const testing::CutMeshSize cut = testing::cut_mesh_size(d, whole.bounds, most);
+      const testing::CutMeshSize cut = testing::cut_mesh_size(input, request, n, most);
+      CHECK(testing::separator_without_room(cut.decomposition) == "");
       CHECK(cut.complete);
       CHECK(relative_size(cut, in_one_piece) <= 1);
       tally.worst = std::max(tally.worst, relative_size(cut, in_one_piece));

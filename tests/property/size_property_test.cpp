@@ -2,24 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
-#include "decompose/decompose.hpp"
 #include "driftmesh/error.hpp"
-#include "mesh/cdt.hpp"
-#include "mesh/corners.hpp"
-#include "mesh/mesher.hpp"
 #include "property/cases.hpp"
 #include "sizing/background_field.hpp"
 #include "sizing/expression_field.hpp"
 #include "sizing/graded_field.hpp"
-#include "sizing/sampled_field.hpp"
-#include "support/refine_together.hpp"
+#include "support/made_mesh.hpp"
+#include "temporary_folder.hpp"
 #include "unit/sizing_mesh_fixture.hpp"
 
 // Size fields with random narrow features. What they ask for is looked up again by dense sampling of the finished mesh,
@@ -54,35 +52,58 @@ Pslg unit_square() {
   return pslg;
 }
 
-std::vector<Corner> triangles_of(const Triangulation& mesh) {
+/// The triangles of the unit square with these sizes. Subdomains that do not conform throw.
+std::vector<Corner> meshed(const job::Request::Sizing& sizing, std::int32_t subdomains = 1,
+                           const SizeField* size = nullptr) {
+  job::Request request;
+  request.sizing = sizing;
+  request.decomposition.subdomains = subdomains;
+  request.limits.max_triangles = 2'000'000;
+  const Mesh mesh = made(unit_square(), request, size).mesh;
   std::vector<Corner> all;
-  for (const TriangleId t : ids_of(mesh.triangles))
-    if (mesh.triangles[t].alive()) all.push_back({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
+  for (const auto& [a, b, c] : mesh.triangles) all.push_back({mesh.points[a], mesh.points[b], mesh.points[c]});
   return all;
 }
 
-std::vector<Corner> in_one_piece(const SizeField& size) {
-  MeshRequest request;
-  request.size = &size;
-  request.max_triangles = 2'000'000;
-  const MeshResult result = mesh_domain(unit_square(), request);
-  REQUIRE(result.complete);
-  return triangles_of(result.mesh);
-}
+/// A background mesh in files.
+class BackgroundFiles {
+ public:
+  explicit BackgroundFiles(const FlatMesh& mesh, const std::vector<double>& lengths = {}) {
+    std::string nodes = std::to_string(mesh.points.size()) + (lengths.empty() ? " 2 0 0\n" : " 2 1 0\n");
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+      nodes += line({mesh.points[i].x, mesh.points[i].y, lengths.empty() ? 0 : lengths[i]}, i, lengths.empty() ? 2 : 3);
+    std::string triangles = std::to_string(mesh.triangles.size()) + " 3 0\n";
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      triangles += std::to_string(t);
+      for (const std::int32_t corner : mesh.triangles[t]) triangles += " " + std::to_string(corner);
+      triangles += "\n";
+    }
+    write("node", nodes);
+    write("ele", triangles);
+  }
+  void add_areas(const std::vector<double>& areas) const {
+    std::string text = std::to_string(areas.size()) + "\n";
+    for (std::size_t t = 0; t < areas.size(); ++t) text += line({areas[t], 0, 0}, t, 1);
+    write("area", text);
+  }
+  [[nodiscard]] std::string file(const std::string& extension) const {
+    return (folder_.path() / ("background." + extension)).string();
+  }
 
-std::vector<Corner> in_subdomains(const SizeField& size, int subdomains) {
-  Triangulation mesh = triangulate(unit_square());
-  prepare_corners(mesh);
-  DecomposeOptions options;
-  options.subdomains = subdomains;
-  options.bounds.size = &size;
-  const RefinedTogether refined = refine_together(decompose(mesh, options), options.bounds);
-  CHECK(refined.not_conforming.empty());
-  std::vector<Corner> all;
-  for (const SubdomainMesh& part : refined.parts)
-    for (const Corner& t : triangles_of(part.mesh)) all.push_back(t);
-  return all;
-}
+ private:
+  static std::string line(const std::array<double, 3>& values, std::size_t number, std::size_t count) {
+    std::string text = std::to_string(number);
+    char value[40];
+    for (std::size_t k = 0; k < count; ++k) {
+      std::snprintf(value, sizeof value, " %.17g", values[k]);
+      text += value;
+    }
+    return text + "\n";
+  }
+  void write(const std::string& extension, const std::string& text) const { std::ofstream(file(extension)) << text; }
+
+  TemporaryFolder folder_;
+};
 
 double cross(const Point& a, const Point& b, const Point& p) {
   return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
@@ -166,8 +187,9 @@ TEST_CASE("no feature of an expression is missed, however narrow") {
     CAPTURE(feature.expression);
     const ExpressionField field(feature.expression, 0, 1.0 / 2000);
     const auto size = [&](const Point& p) { return field.edge_length(p); };
-    CHECK(worst_excess(in_one_piece(field), size, feature.points, random) <= kTolerance);
-    if (i % 5 == 0) CHECK(worst_excess(in_subdomains(field, 6), size, feature.points, random) <= kTolerance);
+    const job::Request::Sizing sizing{.expression = feature.expression, .background = {}};
+    CHECK(worst_excess(meshed(sizing), size, feature.points, random) <= kTolerance);
+    if (i % 5 == 0) CHECK(worst_excess(meshed(sizing, 6), size, feature.points, random) <= kTolerance);
   }
 }
 
@@ -198,7 +220,8 @@ TEST_CASE("a mesh of an expression whose growth is limited") {
   const std::string bump = "0.3-0.29*exp(-((x-.6)^2+(y-.3)^2)*1e6)";
   const GradedField field(std::make_unique<ExpressionField>(bump), 0.25, {{0, 0}, {1, 1}});
   const auto size = [&](const Point& p) { return field.edge_length(p); };
-  CHECK(worst_excess(in_one_piece(field), size, {{0.6, 0.3}}, random) <= kTolerance / 0.94);
+  const job::Request::Sizing sizing{.expression = bump, .background = {}, .gradation = 0.25};
+  CHECK(worst_excess(meshed(sizing), size, {{0.6, 0.3}}, random) <= kTolerance / 0.94);
 }
 
 TEST_CASE("no feature of a function is missed that is wider than the spacing of its samples") {
@@ -212,7 +235,8 @@ TEST_CASE("no feature of a function is missed that is wider than the spacing of 
   };
   Random random = seeded_generator("features of functions");
   for (int i = 0; i < case_count(60); ++i) {
-    const double spacing = 1 / uniform(random, 20, 400);
+    const auto resolution = static_cast<std::int64_t>(20 + random() % 380);
+    const double spacing = 1 / static_cast<double>(resolution);
     Spot spot;
     spot.center = random_point(random);
     spot.radius = spacing * uniform(random, 0.71, 1.5);  // a square of the spacing fits in
@@ -222,9 +246,8 @@ TEST_CASE("no feature of a function is missed that is wider than the spacing of 
     CAPTURE(spot.center.x);
     CAPTURE(spot.center.y);
     CAPTURE(spot.radius);
-    const SampledField field(spot, {{0, 0}, spacing});
-    const bool whole = i % 4 != 0;
-    const std::vector<Corner> mesh = whole ? in_one_piece(field) : in_subdomains(field, 5);
+    const job::Request::Sizing sizing{.expression = {}, .background = {}, .resolution = resolution};
+    const std::vector<Corner> mesh = meshed(sizing, i % 4 != 0 ? 1 : 5, &spot);
     double smallest = 1;
     for (const Corner& t : mesh)
       if (std::hypot(t[0].x - spot.center.x, t[0].y - spot.center.y) < 3 * spot.radius)
@@ -245,7 +268,9 @@ TEST_CASE("a background mesh is kept exactly") {
     for (int k = 0; k < 4; ++k) lengths[random() % lengths.size()] = far * std::exp(uniform(random, -4, -1));
     const VertexSizeField field({flat.points, flat.triangles}, lengths);
     const auto size = [&](const Point& p) { return field.edge_length(p); };
-    const auto mesh = i % 4 != 0 ? in_one_piece(field) : in_subdomains(field, 5);
+    const BackgroundFiles files(flat, lengths);
+    const job::Request::Sizing sizing{.expression = {}, .background = files.file("node")};
+    const std::vector<Corner> mesh = meshed(sizing, i % 4 != 0 ? 1 : 5);
     CHECK(worst_excess(mesh, size, flat.points, random) <= 1 + 1e-6);
   }
 }
@@ -269,6 +294,9 @@ TEST_CASE("area bounds of a background mesh are kept wherever their triangles ar
     }
     const TriangleAreaField field({flat.points, flat.triangles}, areas);
     const auto size = [&](const Point& p) { return field.edge_length(p); };
-    CHECK(worst_excess(in_one_piece(field), size, inside, random) <= 1 + 1e-6);
+    const BackgroundFiles files(flat);
+    files.add_areas(areas);
+    const job::Request::Sizing sizing{.expression = {}, .background = files.file("area")};
+    CHECK(worst_excess(meshed(sizing), size, inside, random) <= 1 + 1e-6);
   }
 }

@@ -5,9 +5,8 @@
 #include <string>
 
 #include "driftmesh/repair.hpp"
-#include "mesh/mesher.hpp"
-#include "mesh/to_piece.hpp"
 #include "pslg/poly_file.hpp"
+#include "support/made_mesh.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
 
@@ -37,16 +36,16 @@ TEST_CASE("real inputs are meshed and verified against themselves") {
   }
   for (const RealInput& real : kRealInputs) {
     CAPTURE(real.file);
-    Pslg input = read_poly((folder / real.file).string());
+    const Pslg given = read_poly((folder / real.file).string());
+    Pslg input = given;
     repair(input);
     for (const double angle : {0.0, 20.0, 30.0}) {
       CAPTURE(angle);
-      MeshRequest request;
-      request.min_angle = angle;
       VerifyOptions options;
       options.min_angle = angle;
-      if (angle == 20 && real.area > 0) options.max_area = request.max_area = real.area / 5000;
-      const VerifyReport report = verify(to_piece(mesh_domain(input, request).mesh, input), input, options);
+      if (angle == 20 && real.area > 0) options.max_area = real.area / 5000;
+      const Mesh mesh = testing::made(given, testing::bounded(angle, options.max_area)).mesh;
+      const VerifyReport report = verify(mesh, input, options);
       INFO(report_text(report, options));
       CHECK(report.accepted());
       if (real.area > 0) CHECK(report.area == doctest::Approx(real.area).epsilon(1e-7));

@@ -3,12 +3,9 @@
 #include <cstddef>
 #include <string>
 
-#include "decompose/decompose.hpp"
-#include "driftmesh/repair.hpp"
-#include "mesh/mesher.hpp"
 #include "pslg/triangle_files.hpp"
 #include "support/cut_mesh_size.hpp"
-#include "support/prepared_mesh.hpp"
+#include "support/made_mesh.hpp"
 
 // Domains in which separators ran beside a wall. Their points lie within a millimeter or a nanometer of lines.
 
@@ -25,13 +22,11 @@ TEST_CASE("points near the lines of their hull take few triangles more in subdom
     Pslg pslg;
     pslg.points =
         read_node(std::string(DRIFTMESH_SOURCE_DIR) + "/tests/regression/input/slits/" + name + ".node").points;
-    repair(pslg);
-    CHECK(mesh_domain(pslg, {}).mesh.live_triangles() == in_one_piece);
+    const job::Request request = testing::bounded(20);
+    CHECK(testing::made(pslg, request).mesh.triangles.size() == in_one_piece);
     for (const int n : {2, 5, 16, 40, 60, 100}) {
       CAPTURE(n);
-      DecomposeOptions options;
-      options.subdomains = n;
-      const auto cut = testing::cut_mesh_size(decompose(testing::prepared(pslg), options), {}, 50000);
+      const testing::CutMeshSize cut = testing::cut_mesh_size(pslg, request, n, 50000);
       CHECK(cut.complete);
       CHECK(static_cast<double>(cut.triangles) <=
             1.1 * static_cast<double>(in_one_piece) + 4 * static_cast<double>(cut.separator_edges));

@@ -9,11 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "driftmesh/repair.hpp"
-#include "mesh/exceptions.hpp"
-#include "mesh/mesher.hpp"
 #include "pslg/generators.hpp"
 #include "pslg/poly_file.hpp"
+#include "support/made_mesh.hpp"
 
 // The number of triangles that an angle bound alone takes, against the number in meshes made by Triangle 1.6 (-pPq) of
 // the same inputs.
@@ -82,14 +80,17 @@ const std::vector<Counted> kCounted = {
 
 struct Count {
   double triangles = 0;
-  std::size_t low = 0;
+  std::int64_t low = 0;
 };
 
-Count refined(Pslg pslg, double angle) {
-  repair(pslg);
-  const MeshResult result = mesh_domain(pslg, {.min_angle = angle, .region_areas = false});
-  CHECK(result.complete);
-  return {static_cast<double>(result.mesh.live_triangles()), find_exceptions(result.mesh, result.bounds).skinny.size()};
+Count refined(const Pslg& pslg, double angle) {
+  job::Request request = testing::bounded(angle);
+  request.bounds.region_areas = false;
+  const job::RunRecord record = testing::made(pslg, request).record;
+  CHECK(record.complete);
+  Count count{static_cast<double>(record.triangles)};
+  for (const auto& group : record.exceptions) count.low += group.count;
+  return count;
 }
 
 double median(std::vector<double> values) {
@@ -108,9 +109,9 @@ TEST_CASE("an angle bound alone takes no more triangles than Triangle makes, in 
       if (!pslg) continue;
       const Count ours = refined(*pslg, kAngles[i]);
       ratios.push_back(ours.triangles / counted.theirs[i]);
-      std::printf("%-44s %2.0f degrees: %6.0f triangles, Triangle %6d, ratio %.3f; %zu and %d below the bound\n",
-                  counted.words().c_str(), kAngles[i], ours.triangles, counted.theirs[i], ratios.back(), ours.low,
-                  counted.theirs_low[i]);
+      std::printf("%-44s %2.0f degrees: %6.0f triangles, Triangle %6d, ratio %.3f; %lld and %d below the bound\n",
+                  counted.words().c_str(), kAngles[i], ours.triangles, counted.theirs[i], ratios.back(),
+                  static_cast<long long>(ours.low), counted.theirs_low[i]);
       CAPTURE(counted.words());
       CAPTURE(kAngles[i]);
       CHECK(ratios.back() <= kWorst);

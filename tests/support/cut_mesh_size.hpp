@@ -2,10 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
+#include <utility>
 
-#include "decompose/decompose.hpp"
-#include "support/refine_together.hpp"
+#include "driftmesh/error.hpp"
+#include "mesh/mesh_edges.hpp"
+#include "support/made_mesh.hpp"
 
 namespace driftmesh::testing {
 
@@ -13,27 +14,25 @@ namespace driftmesh::testing {
 struct CutMeshSize {
   std::size_t triangles = 0;
   std::size_t separator_edges = 0;  ///< edges of the mesh that lie on separators
-  bool complete = true;             ///< false: a subdomain was about to have more triangles than allowed
+  Decomposition decomposition;
+  bool complete = true;  ///< false: there were more triangles than allowed, and nothing else is known
 };
 
-/// Refines the subdomains together, their interfaces split to size beforehand, as runs do.
-inline CutMeshSize cut_mesh_size(const Decomposition& d, const QualityBounds& bounds, std::int64_t most_triangles) {
-  RefineTogether how;
-  how.presplit = true;
-  how.most_triangles = most_triangles;
-  const RefinedTogether refined = refine_together(d, bounds, how);
-  CutMeshSize size;
-  size.complete = refined.complete;
-  std::map<GlobalRootId, std::size_t> edges;
-  for (const SubdomainMesh& part : refined.parts) {
-    size.triangles += part.mesh.live_triangles();
-    std::map<GlobalRootId, std::size_t> of_part;
-    for (const Subsegment& s : part.mesh.subsegments)
-      if (s.is_leaf() && d.roots[part.roots[s.root]].separator) ++of_part[part.roots[s.root]];
-    for (const auto& [root, count] : of_part) edges[root] = count;
+/// Makes the mesh that the request asks for in this many subdomains.
+[[nodiscard]] inline CutMeshSize cut_mesh_size(const Pslg& input, job::Request request, std::int32_t subdomains,
+                                               std::int64_t most_triangles) {
+  request.decomposition.subdomains = subdomains;
+  request.limits = {.max_triangles = most_triangles};
+  try {
+    Made cut = made(input, request);
+    const TriangleNeighbors neighbors = triangle_neighbors(cut.mesh);
+    const auto separators = separator_edges(cut.mesh, neighbors, ConstrainedEdgeIndex(cut.mesh), 0);
+    return {cut.mesh.triangles.size(), separators.size(), std::move(cut.decomposition)};
+  } catch (const LimitError&) {
+    CutMeshSize size;
+    size.complete = false;
+    return size;
   }
-  for (const auto& [root, count] : edges) size.separator_edges += count;
-  return size;
 }
 
 }  // namespace driftmesh::testing

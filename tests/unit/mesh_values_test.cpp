@@ -7,12 +7,10 @@
 #include <random>
 
 #include "mesh/digest.hpp"
-#include "mesh/exceptions.hpp"
-#include "mesh/interpolate_attributes.hpp"
-#include "mesh/mesher.hpp"
-#include "mesh/to_piece.hpp"
+#include "support/made_mesh.hpp"
 
 using namespace driftmesh;
+using namespace driftmesh::testing;
 
 namespace {
 
@@ -36,10 +34,8 @@ std::array<double, 2> linear(const Point& p) {
   return {3 * p.x - 2 * p.y + 1, -p.x + 0.25 * p.y};
 }
 
-Mesh meshed(const Pslg& pslg) {
-  MeshRequest request;
-  request.max_area = 0.01;
-  return to_piece(mesh_domain(pslg, request).mesh, pslg);
+Made meshed(const Pslg& pslg) {
+  return made(pslg, bounded(20, 0.01));
 }
 
 /// The same mesh, numbered differently.
@@ -64,9 +60,8 @@ TEST_CASE("Attributes that are linear in the input are so in the mesh") {
   Pslg pslg = domain();
   pslg.attributes_per_point = 2;
   for (const Point& p : pslg.points) pslg.attributes.insert(pslg.attributes.end(), {linear(p)[0], linear(p)[1]});
-  Mesh piece = meshed(pslg);
+  const Mesh piece = meshed(pslg).mesh;
   REQUIRE(piece.points.size() > 2 * pslg.points.size());
-  interpolate_attributes(pslg, piece);
   double error = 0;
   for (std::size_t v = 0; v < piece.points.size(); ++v)
     for (std::size_t k = 0; k < 2; ++k)
@@ -79,8 +74,7 @@ TEST_CASE("Attributes of points on a segment interpolate those of its ends, what
   pslg.attributes_per_point = 1;
   pslg.attributes.assign(pslg.points.size(), 0);
   pslg.attributes[16] = pslg.attributes[17] = 5;  // the ends of the inner segment
-  Mesh piece = meshed(pslg);
-  interpolate_attributes(pslg, piece);
+  const Mesh piece = meshed(pslg).mesh;
   int on_segment = 0;
   for (const Mesh::Edge& e : piece.edges)
     if (e.marker == 3) {
@@ -94,13 +88,9 @@ TEST_CASE("Attributes of points on a segment interpolate those of its ends, what
 }
 
 TEST_CASE("The digest identifies a mesh by its triangles alone") {
-  const Pslg pslg = domain();
-  MeshRequest request;
-  request.max_area = 0.01;
-  const MeshResult result = mesh_domain(pslg, request);
-  const Mesh piece = to_piece(result.mesh, pslg);
+  const auto& [piece, record, uncut] = meshed(domain());
   const std::uint64_t digest = mesh_digest(piece);
-  CHECK(mesh_digest(result.mesh) == digest);
+  CHECK(record.digest == digest);  // of the triangulation that was refined
   for (unsigned seed = 1; seed <= 5; ++seed) CHECK(mesh_digest(shuffled(piece, seed)) == digest);
 
   Mesh first = piece, second = piece;  // in two parts
@@ -111,7 +101,7 @@ TEST_CASE("The digest identifies a mesh by its triangles alone") {
 }
 
 TEST_CASE("The digest changes with any bit of a coordinate, a lost triangle, a turned edge or orientation") {
-  const Mesh piece = meshed(domain());
+  const Mesh piece = meshed(domain()).mesh;
   const std::uint64_t digest = mesh_digest(piece);
   Mesh moved = piece;
   moved.points[5].y = std::nextafter(moved.points[5].y, 10);
@@ -132,17 +122,14 @@ TEST_CASE("The digest is the documented function") {
 }
 
 TEST_CASE("Angles fall into the right bins, and the extremes are correct") {
-  const Pslg pslg = domain();
-  MeshRequest request;
-  request.max_area = 0.01;
-  const Triangulation mesh = mesh_domain(pslg, request).mesh;
-  const AngleSummary summary = summarize_angles(mesh);
+  const auto& [mesh, record, uncut] = meshed(domain());
+  const AngleSummary& summary = record.shape;
   std::array<std::int64_t, 18> bins{};
   double smallest = 180, largest = 0;
-  for (const TriangleId t : ids_of(mesh.triangles))
-    for (int i = 0; i < 3; ++i) {
-      if (!mesh.triangles[t].alive()) continue;
-      const Point &apex = mesh.corner(t, i), &p = mesh.corner(t, next(i)), &q = mesh.corner(t, previous(i));
+  for (const auto& triangle : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point &apex = mesh.points[triangle[i]], &p = mesh.points[triangle[(i + 1) % 3]],
+                  &q = mesh.points[triangle[(i + 2) % 3]];
       const double cross = (p.x - apex.x) * (q.y - apex.y) - (p.y - apex.y) * (q.x - apex.x);
       const double dot = (p.x - apex.x) * (q.x - apex.x) + (p.y - apex.y) * (q.y - apex.y);
       const double degrees = std::atan2(cross, dot) * 180 / std::numbers::pi;

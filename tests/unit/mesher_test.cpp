@@ -1,10 +1,9 @@
-#include "mesh/mesher.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
 
 #include "driftmesh/error.hpp"
 #include "geometry/triangle_geometry.hpp"
@@ -13,8 +12,11 @@
 #include "mesh/narrow_place.hpp"
 #include "mesh/to_piece.hpp"
 #include "small_domains.hpp"
+#include "support/made_mesh.hpp"
+#include "verify/report_text.hpp"
+#include "verify/verify.hpp"
 
-// Domains that are meshed in one call. The refiner by itself is in refiner_test.cpp.
+// Domains that are triangulated, and meshed in one call. The refiner by itself is in refiner_test.cpp.
 
 using namespace driftmesh;
 using namespace driftmesh::testing;
@@ -33,6 +35,24 @@ void add_ring(Pslg& pslg, Point center, double radius, int n, int marker) {
 double total_area(const Triangulation& mesh) {
   return summarize_angles(mesh).total_area;
 }
+
+/// Checks that the mesh meets the bounds of the request, but for the angles that the verifier accepts.
+void check_mesh(const Made& made, const Pslg& pslg, const job::Request& request) {
+  const VerifyOptions options{
+      .min_angle = request.bounds.angle, .max_area = request.bounds.area, .region_areas = request.bounds.region_areas};
+  const VerifyReport report = verify(made.mesh, pslg, options);
+  CHECK_MESSAGE(report.accepted(), report_text(report, options));
+}
+
+/// The number of triangles that the summary lists for this reason.
+std::int64_t listed(const job::RunRecord& record, const std::string& cause) {
+  std::int64_t count = 0;
+  for (const auto& group : record.exceptions)
+    if (group.cause == cause) count += group.count;
+  return count;
+}
+constexpr const char* kLarge = "area or size bound missed";
+constexpr const char* kNoRoom = "no room between coordinates";
 
 }  // namespace
 
@@ -125,18 +145,14 @@ TEST_CASE("refinement meets the bounds on area and angle") {
     Pslg pslg = rectangle(2, 1);
     add_ring(pslg, {0.7, 0.5}, 0.2, 32, 5);
     pslg.holes = {{0.7, 0.5}};
-    MeshRequest request;
-    request.min_angle = angle;
-    request.max_area = 1e-4;
-    const MeshResult result = mesh_domain(pslg, request);
+    const job::Request request = bounded(angle, 1e-4);
+    const Made mesh = made(pslg, request);
     CAPTURE(angle);
-    check_valid(result.mesh);
-    const Exceptions exceptions = find_exceptions(result.mesh, result.bounds);
-    CHECK(exceptions.skinny.empty());
-    CHECK(exceptions.large.empty());
-    CHECK(result.counters.given_up == 0);
-    CHECK(result.complete);
-    CHECK(summarize_angles(result.mesh).smallest >= angle);
+    check_mesh(mesh, pslg, request);
+    CHECK(mesh.record.exceptions.empty());
+    CHECK(mesh.record.counters.given_up == 0);
+    CHECK(mesh.record.complete);
+    CHECK(mesh.record.shape.smallest >= angle);
   }
 }
 
@@ -153,9 +169,7 @@ TEST_CASE("the narrowest place between two segments is found, with a forecast of
     const double width = pslg.points[6].y;
     CHECK(place->width == doctest::Approx(width).epsilon(1e-9));
     CHECK(place->length == doctest::Approx(0.5 - pslg.points[6].x));
-    MeshRequest request;
-    request.min_angle = 20;
-    const auto triangles = static_cast<double>(mesh_domain(pslg, request).mesh.live_triangles());
+    const auto triangles = static_cast<double>(made(pslg, bounded(20)).mesh.triangles.size());
     CHECK(place->triangles > triangles / 2);
     CHECK(place->triangles < triangles * 2);
   }
@@ -175,15 +189,13 @@ TEST_CASE("refinement terminates at small angles of the input, which are the onl
       for (const double angle : {20.0, 33.0}) {
         CAPTURE(seed);
         CAPTURE(wedges);
-        MeshRequest request;
-        request.min_angle = angle;
-        request.max_area = 0.01;
-        const MeshResult result = mesh_domain(fan(seed, wedges), request);
-        check_valid(result.mesh);
-        const Exceptions exceptions = find_exceptions(result.mesh, result.bounds);
-        CHECK(exceptions.large.empty());  // the area bound holds at small angles, too
-        for (const Exceptions::Item& item : exceptions.skinny) CHECK(item.cause != ExceptionCause::kPrecision);
-        CHECK(total_area(result.mesh) == doctest::Approx(4).epsilon(1e-12));
+        const Pslg pslg = fan(seed, wedges);
+        const job::Request request = bounded(angle, 0.01);
+        const Made mesh = made(pslg, request);
+        check_mesh(mesh, pslg, request);
+        CHECK(listed(mesh.record, kLarge) == 0);  // the area bound holds at small angles, too
+        CHECK(listed(mesh.record, kNoRoom) == 0);
+        CHECK(mesh.record.shape.total_area == doctest::Approx(4).epsilon(1e-12));
       }
 }
 
@@ -204,30 +216,31 @@ TEST_CASE("a sliver between two tiny corners on one segment costs the logarithm 
         CAPTURE(surrounded);
         CAPTURE(foot);
         CAPTURE(height);
-        const MeshResult result = mesh_domain(sliver(foot, height, surrounded), {.max_triangles = 100'000});
-        REQUIRE(result.complete);
-        check_valid(result.mesh);
-        for (const Exceptions::Item& item : find_exceptions(result.mesh, result.bounds).skinny)
-          CHECK(item.cause != ExceptionCause::kPrecision);
-        CHECK(result.mesh.live_triangles() < 40 * (2 - std::log2(height)));
+        const Pslg pslg = sliver(foot, height, surrounded);
+        const job::Request request = bounded(20, 0, 100'000);
+        const Made mesh = made(pslg, request);
+        REQUIRE(mesh.record.complete);
+        check_mesh(mesh, pslg, request);
+        CHECK(listed(mesh.record, kNoRoom) == 0);
+        CHECK(static_cast<double>(mesh.record.triangles) < 40 * (2 - std::log2(height)));
       }
     }
 }
 
 TEST_CASE("a narrow wedge costs the logarithm of its angle, not its inverse") {
-  std::size_t before = 0;
+  std::int64_t before = 0;
   for (const double angle : {1e-3, 1e-5, 1e-7}) {
     Pslg pslg;
     pslg.points = {{0, 0}, {0.8, 0}, {0.5 * std::cos(angle), 0.5 * std::sin(angle)}, {-1, -1}, {1, -1},
                    {1, 1}, {-1, 1}};
     pslg.segments = {{0, 1, 1}, {0, 2, 2}, {3, 4, 0}, {4, 5, 0}, {5, 6, 0}, {6, 3, 0}};
-    const MeshResult result = mesh_domain(pslg, {});
-    check_valid(result.mesh);
-    for (const Exceptions::Item& item : find_exceptions(result.mesh, result.bounds).skinny)
-      CHECK(item.cause != ExceptionCause::kPrecision);
-    CHECK(result.mesh.live_triangles() < 500);
-    CHECK(result.mesh.live_triangles() > before);
-    before = result.mesh.live_triangles();
+    const job::Request request = bounded(20);
+    const Made mesh = made(pslg, request);
+    check_mesh(mesh, pslg, request);
+    CHECK(listed(mesh.record, kNoRoom) == 0);
+    CHECK(mesh.record.triangles < 500);
+    CHECK(mesh.record.triangles > before);
+    before = mesh.record.triangles;
   }
 }
 
@@ -237,36 +250,31 @@ TEST_CASE("region bounds hold, even where regions touch") {
   pslg.points.push_back({1, 1});
   pslg.segments = {{0, 4, 1}, {4, 1, 1}, {1, 2, 2}, {2, 5, 3}, {5, 3, 3}, {3, 0, 4}, {4, 5, 9}};
   pslg.regions = {{{0.5, 0.5}, 1, 1e-3}, {{1.5, 0.5}, 2, 1e-2}};
-  MeshRequest request;
-  const MeshResult result = mesh_domain(pslg, request);
-  CHECK(find_exceptions(result.mesh, result.bounds).large.empty());
+  job::Request request = bounded(20);
+  const Made mesh = made(pslg, request);
+  check_mesh(mesh, pslg, request);
+  CHECK(listed(mesh.record, kLarge) == 0);
   std::size_t fine = 0, coarse = 0;
-  for (const std::uint16_t r : result.mesh.region) (r == 1 ? fine : coarse) += 1;
+  for (const double region : mesh.mesh.regions) (region == 1 ? fine : coarse) += 1;
   CHECK(fine > 5 * coarse);
-  request.region_areas = false;
-  CHECK(mesh_domain(pslg, request).mesh.live_triangles() < 50);
+  request.bounds.region_areas = false;
+  CHECK(made(pslg, request).mesh.triangles.size() < 50);
 }
 
 TEST_CASE("a limit on triangles stops refinement with a valid mesh") {
-  MeshRequest request;
-  request.max_area = 1e-6;
-  request.max_triangles = 5000;
-  const MeshResult result = mesh_domain(rectangle(1, 1), request);
-  CHECK(!result.complete);
-  CHECK(result.mesh.live_triangles() >= 5000);
-  CHECK(result.mesh.live_triangles() < 5100);
-  check_valid(result.mesh);
+  const Made mesh = made(rectangle(1, 1), bounded(20, 1e-6, 5000));
+  CHECK(!mesh.record.complete);
+  CHECK(mesh.record.triangles >= 5000);
+  CHECK(mesh.record.triangles < 5100);
+  check_mesh(mesh, rectangle(1, 1), bounded(0));
 }
 
 TEST_CASE("a piece has the input's points first and every subsegment once") {
   const Pslg pslg = rectangle(2, 1);
-  MeshRequest request;
-  request.max_area = 0.01;
-  const MeshResult result = mesh_domain(pslg, request);
-  const Mesh piece = to_piece(result.mesh, pslg);
+  const auto& [piece, record, uncut] = made(pslg, bounded(20, 0.01));
   for (std::size_t i = 0; i < 4; ++i) CHECK(piece.points[i] == pslg.points[i]);
-  CHECK(piece.triangles.size() == result.mesh.live_triangles());
-  CHECK(piece.points.size() == result.mesh.live_vertices());
+  CHECK(static_cast<std::int64_t>(piece.triangles.size()) == record.triangles);
+  CHECK(static_cast<std::int64_t>(piece.points.size()) == record.vertices);
   double by_marker[5] = {};
   for (const Mesh::Edge& e : piece.edges)
     by_marker[e.marker] += std::sqrt(squared_distance(piece.points[e.a], piece.points[e.b]));
@@ -277,9 +285,6 @@ TEST_CASE("a piece has the input's points first and every subsegment once") {
 }
 
 TEST_CASE("requests out of range are rejected") {
-  MeshRequest request;
-  request.min_angle = 35;
-  CHECK_THROWS_AS(mesh_domain(rectangle(1, 1), request), Error);
-  request.min_angle = -1;
-  CHECK_THROWS_AS(mesh_domain(rectangle(1, 1), request), Error);
+  CHECK_THROWS_AS(made(rectangle(1, 1), bounded(35)), Error);
+  CHECK_THROWS_AS(made(rectangle(1, 1), bounded(-1)), Error);
 }

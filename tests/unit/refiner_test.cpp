@@ -37,6 +37,24 @@ TEST_CASE("a mesh made in slices is the same") {
   for (const VertexId v : ids_of(whole.points)) REQUIRE(whole.points[v] == sliced.points[v]);
 }
 
+TEST_CASE("refinement leaves a sound triangulation, stopped or not, with small angles and without") {
+  for (const int wedges : {0, 3, 20, 40})
+    for (const double angle : {0.0, 20.0, 33.0})
+      for (const std::int64_t insertions : {100, 100'000}) {
+        CAPTURE(wedges);
+        CAPTURE(angle);
+        CAPTURE(insertions);
+        Triangulation mesh = triangulate(fan(5, wedges));
+        prepare_corners(mesh, {angle, false});
+        QualityBounds bounds;
+        bounds.min_angle = angle;
+        bounds.max_area = 1e-3;
+        const Refiner::Status status = Refiner(mesh, bounds).refine(insertions);
+        CHECK((status == Refiner::Status::kDone) == (insertions > 100));
+        check_valid(mesh);
+      }
+}
+
 TEST_CASE("a refiner made from a copy of mesh and state continues identically") {
   const Pslg pslg = fan(7, 9);
   QualityBounds bounds;
