@@ -31,6 +31,7 @@ class Checker {
       check_points();
       check_borders();
       check_lists();
+      check_inner_points();
       measure();
     }
     return std::move(report_);
@@ -221,6 +222,23 @@ class Checker {
       problem("the lists of inner points are broken");
     for (const GlobalPointId v : d_.point_list)
       if (!d_.points.has(v)) problem("inner point " + to_string(v) + " does not exist");
+  }
+
+  /// Above a point inside a subdomain an odd number of roots have it on one side.
+  void check_inner_points() {
+    if (!report_.problems.empty()) return;  // the lists may name nothing
+    for (const SubdomainId i : ids_of(d_.subdomains))
+      for (const GlobalPointId v : d_.inner_points_of(i)) {
+        const auto is_above = [&](GlobalRootId r) {
+          const Decomposition::Root& root = d_.roots[r];
+          const bool rightward = point(root.a).x < point(root.b).x;
+          const Point &west = point(rightward ? root.a : root.b), &east = point(rightward ? root.b : root.a);
+          return root.left != root.right && west.x <= point(v).x && point(v).x < east.x &&
+                 orient2d(west, east, point(v)) < 0;
+        };
+        if (std::ranges::count_if(d_.roots_of(i), is_above) % 2 == 0)
+          problem("inner " + place(v) + " is listed in subdomain " + to_string(i) + ", in which it does not lie");
+      }
   }
 
   void measure() {

@@ -26,8 +26,9 @@ struct DecompositionReport {
 
 /// Checks the invariants that Decomposition states, from the points and roots alone: indices in range, each root's
 /// direction, coordinates in range; the roots around every point agree on the subdomains and regions between them; each
-/// subdomain has one outer border (it is connected) and the area that it claims; the lists match the roots; no two
-/// roots cross. Uses exact orientation; areas must agree to about 1e-9 of the domain.
+/// subdomain has one outer border (it is connected) and the area that it claims; the lists match the roots, and inner
+/// points lie in their subdomains; no two roots cross. Uses exact orientation; areas must agree to about 1e-9 of the
+/// domain.
 [[nodiscard]] DecompositionReport check_decomposition(const Decomposition& decomposition);
 
 }  // namespace driftmesh

@@ -39,7 +39,8 @@ DRIFTMESH_WIDE std::uint64_t joinable(const StationColumns& columns, std::size_t
     const double dx = x[l] - ax, dy = y[l] - ay;
     const double leaving = std::min(from_x * dy - from_y * dx, dx * to_y - dy * to_x);
     const double arriving = std::min(first_y[l] * dx - first_x[l] * dy, last_x[l] * dy - last_y[l] * dx);
-    found |= std::min(leaving, arriving) >= 0 ? kBits[l] : 0;
+    const double apart = std::max(std::fabs(dx), std::fabs(dy));  // two corners may be one point
+    found |= std::min(leaving, arriving) >= 0 && apart > 0 ? kBits[l] : 0;
   }
   return found;
 }
@@ -113,7 +114,7 @@ void StationColumns::set(const Outline& outline, std::span<const std::uint32_t> 
 bool CutSearch::allows(std::size_t i, std::size_t j) const {
   const Outline::Station &a = outline_->stations[i], &b = outline_->stations[j];
   const double dx = b.at.x - a.at.x, dy = b.at.y - a.at.y;
-  return Outline::allows(a, dx, dy) && Outline::allows(b, -dx, -dy);
+  return (dx != 0 || dy != 0) && Outline::allows(a, dx, dy) && Outline::allows(b, -dx, -dy);
 }
 
 /// All pairs of selected stations whose sectors allow a separator.

@@ -90,7 +90,7 @@ class Search {
     return true;
   }
   [[nodiscard]] bool may_follow(const End& a, const End& b) const {
-    const bool narrow = a.direction.x * b.direction.y - a.direction.y * b.direction.x > 0 &&
+    const bool narrow = a.direction.x * b.direction.y - a.direction.y * b.direction.x >= 0 &&
                         a.direction.x * b.direction.x + a.direction.y * b.direction.y > cosine_;
     return !narrow && PlanarMap::wall_of(outline_.stations[a.station].side) !=
                           PlanarMap::wall_of(outline_.stations[b.station].side);

@@ -222,6 +222,36 @@ TEST_CASE("no two vertices come nearer to each other than the theorem says") {
   CHECK(nearest < 2);  // else the bound would mean little
 }
 
+TEST_CASE("grids of points without segments are cut into any number of subdomains") {
+  std::mt19937_64 random = testing::seeded_generator("grids of points");
+  std::size_t inner = 0;
+  for (std::int64_t i = 0; i < testing::case_count(60); ++i) {
+    const std::uint64_t seed = random();
+    CAPTURE(seed);
+    std::mt19937_64 drawn(seed);
+    // Turned, and rounded to some decimals, so that rows are only nearly straight: bridges run along them.
+    const auto columns = static_cast<int>(3 + drawn() % 22), rows = static_cast<int>(3 + drawn() % 22);
+    const double width = 10, height = static_cast<double>(3 + drawn() % 8), angle = static_cast<double>(drawn() % 90);
+    const double cosine = std::cos(angle * std::numbers::pi / 180), sine = std::sin(angle * std::numbers::pi / 180);
+    const double unit = std::pow(10, static_cast<double>(drawn() % 9));
+    Pslg grid;
+    for (int x = 0; x < columns; ++x)
+      for (int y = 0; y < rows; ++y)
+        grid.points.push_back({std::round(unit * (x * width * cosine - y * height * sine)) / unit,
+                               std::round(unit * (x * width * sine + y * height * cosine)) / unit});
+    repair(grid);
+    CAPTURE(poly_text(grid));
+    const Triangulation mesh = prepared(grid);
+    for (const int n : {2, 5, 16, 60}) {
+      CAPTURE(n);
+      const Outcome outcome = decompose_and_check(grid, mesh, n);
+      CHECK(outcome.problem == "");
+    }
+    inner += grid.points.size();
+  }
+  CHECK(inner > 0);
+}
+
 TEST_CASE("domains of many parts are cut into any number of subdomains") {
   std::size_t shared = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(testing::case_count(100)); ++seed) {
