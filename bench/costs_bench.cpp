@@ -48,7 +48,7 @@ Domain domain_of(const Pslg& pslg, double area, std::int32_t subdomains) {
   Domain domain{triangulate(pslg), {}};
   prepare_corners(domain.mesh);
   domain.cutting.subdomains = subdomains;
-  domain.cutting.bounds = {20, area, {}, nullptr};
+  domain.cutting.bounds = {20, {area}, {}, nullptr};
   return domain;
 }
 

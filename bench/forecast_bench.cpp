@@ -87,7 +87,7 @@ void print_row(const std::string& name, const Pslg& pslg, double angle, double t
   DecomposeOptions options;
   options.subdomains = n;
   options.bounds.min_angle = angle;
-  if (triangles > 0) options.bounds.max_area = 1.55 * area_of(mesh) / triangles;
+  if (triangles > 0) options.bounds.plain.area = 1.55 * area_of(mesh) / triangles;
   const double cost = median_seconds([&] { static_cast<void>(forecast_triangles(mesh, options.bounds)); }) / seconds;
   const Decomposition d = decompose(mesh, options);
   const SubdomainContext context{&d, options.bounds, triangles > 0};

@@ -85,7 +85,7 @@ void print_row(double wanted) {
   double area = 0;
   for (const auto& s : d.subdomains) area += s.area;
   SubdomainContext context{&d, {}, true};
-  context.bounds.max_area = area / (0.645 * wanted * kSubdomains);
+  context.bounds.plain.area = area / (0.645 * wanted * kSubdomains);
   const Costs moved = median_round(context, [&](Subdomain& s, Costs& c) { move(s, context, Source::kThisRun, c); });
   const Costs checked = median_round(context, [&](Subdomain& s, Costs& c) { move(s, context, Source::kUnknown, c); });
   const Costs slept = median_round(context, [&](Subdomain& s, Costs& c) { sleep(s, c); });

@@ -18,15 +18,12 @@ namespace {
 
 /// The request for a mesh as such: how it was made does not matter.
 job::Request requirements_of(const MeshOptions& options) {
-  const MeshOptions only{.snap = options.snap,
-                         .hull = options.hull,
-                         .simplify = options.simplify,
-                         .holes = options.holes,
-                         .min_angle = options.min_angle,
-                         .max_area = options.max_area,
-                         .region_areas = options.region_areas,
-                         .size_resolution = options.size_resolution};
-  job::Request request = request_of(only);
+  const job::Request all = request_of(options);
+  job::Request request;
+  request.input = all.input;
+  request.bounds.angle = all.bounds.angle;
+  static_cast<PlainBounds&>(request.bounds) = all.bounds;
+  request.sizing.resolution = all.sizing.resolution;
   job::check(request, job::kOnePiece);
   return request;
 }
@@ -72,8 +69,7 @@ CheckReport check_against(const Mesh& mesh, const Pslg* input, const MeshOptions
   }
   const FunctionField size(options.size);
   VerifyOptions asked{.min_angle = request.bounds.angle,
-                      .max_area = request.bounds.area,
-                      .region_areas = request.bounds.region_areas,
+                      .plain = request.bounds,
                       .given = input,
                       .moved = request.input.snap + request.input.simplify,
                       .nested_holes = request.input.holes == HoleRule::kNested,

@@ -153,8 +153,7 @@ int run_check(CheckOptions& options) {
     options.bounds.apply(request);
     job::check(request, job::kOnePiece);
   });
-  options.verify.max_area = request.bounds.area;
-  options.verify.region_areas = request.bounds.region_areas;
+  options.verify.plain = request.bounds;
   try {
     const VerifyReport report = read_and_verify(options, request);
     if (!options.quiet) print(report_text(report, options.verify));

@@ -9,12 +9,12 @@
 #include "decompose/bridges.hpp"
 #include "decompose/cutter.hpp"
 #include "decompose/pieces.hpp"
-#include "decompose/presplit.hpp"
 #include "decompose/smoothing.hpp"
 #include "decompose/to_decomposition.hpp"
 #include "decompose/work_samples.hpp"
 #include "driftmesh/error.hpp"
 #include "mesh/forecast.hpp"
+#include "mesh/size_bound.hpp"
 
 namespace driftmesh {
 namespace {
@@ -84,7 +84,7 @@ Domain prepare_domain(const Triangulation& mesh, const DecomposeOptions& options
   Domain domain;
   domain.map = connected_walls(mesh, compact / 4, options.min_angle * std::numbers::pi / 180);
   domain.pieces = find_pieces(domain.map, options.bounds);
-  if (samples.empty() && !bounds_size(options.bounds)) scale_work(domain.pieces, forecast);
+  if (samples.empty() && !SizeBounds(options.bounds).any()) scale_work(domain.pieces, forecast);
   domain.samples = share_out(std::move(samples), domain.map, domain.pieces);
   return domain;
 }
@@ -146,10 +146,11 @@ Decomposition cut_evenly(const Domain& domain, const DecomposeOptions& options) 
 
 Decomposition decompose(const Triangulation& mesh, const DecomposeOptions& options) {
   check_options(options);
-  const bool counts = options.bounds.size == nullptr && options.forecast == 0;
+  const bool by_place = SizeBounds(options.bounds).by_place();
+  const bool counts = !by_place && options.forecast == 0;
   const double forecast = counts ? forecast_triangles(mesh, options.bounds) : options.forecast;
   WorkSamples samples = sample_work(mesh, options.bounds, forecast, kSamplesPerSubdomain * options.subdomains);
-  const bool may_ignore_samples = options.bounds.size == nullptr && !samples.empty();
+  const bool may_ignore_samples = !by_place && !samples.empty();
   try {
     return cut_evenly(prepare_domain(mesh, options, forecast, std::move(samples)), options);
   } catch (const Error&) {

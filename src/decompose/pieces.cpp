@@ -225,7 +225,7 @@ IdVector<SideId, PieceId> label_sides(const PlanarMap& map, const IdVector<Piece
   return piece_of;
 }
 
-IdVector<PieceId, Piece> find_pieces(const PlanarMap& map, const QualityBounds& bounds) {
+IdVector<PieceId, Piece> find_pieces(const PlanarMap& map, const SizeBounds& sizes) {
   IdVector<PieceId, Piece> pieces;
   IdVector<SideId, bool> seen(map.sides.size(), false);
   Loop loop;
@@ -236,7 +236,7 @@ IdVector<PieceId, Piece> find_pieces(const PlanarMap& map, const QualityBounds& 
     Piece piece;
     piece.side = first;
     piece.area = area_inside(loop);
-    piece.work = piece.area * work_density(bounds, map.side(first).region);
+    piece.work = piece.area * work_density(sizes, map.side(first).region);
     pieces.push_back(piece);
   }
   return pieces;

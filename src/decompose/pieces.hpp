@@ -6,7 +6,7 @@
 #include "decompose/planar_map.hpp"
 #include "driftmesh/id_vector.hpp"
 #include "driftmesh/ids.hpp"
-#include "mesh/bounds.hpp"
+#include "mesh/size_bound.hpp"
 
 namespace driftmesh {
 
@@ -23,7 +23,7 @@ struct Piece {
 };
 
 /// The pieces into which the walls divide the domain, one for each loop.
-[[nodiscard]] IdVector<PieceId, Piece> find_pieces(const PlanarMap& map, const QualityBounds& bounds);
+[[nodiscard]] IdVector<PieceId, Piece> find_pieces(const PlanarMap& map, const SizeBounds& sizes);
 
 /// If the domain has more connected parts than there are to be subdomains: bundles small parts that lie near each
 /// other, so that each bundle has about the work of a subdomain. Returns the number of bundles.

@@ -5,19 +5,20 @@
 #include "decompose/work.hpp"
 #include "geometry/midpoint.hpp"
 #include "geometry/triangle_geometry.hpp"
+#include "mesh/size_bound.hpp"
 
 namespace driftmesh {
 namespace {
 
 struct Spacing {
   double area_bound;
-  const SizeField* size;
+  const SizeBounds& sizes;
 
   /// The largest squared length of a subsegment from a to b with midpoint m.
   [[nodiscard]] double most(const Point& a, const Point& m, const Point& b) const {
     double bound = area_bound;
-    if (size != nullptr)
-      for (const Point& p : {a, m, b}) bound = std::min(bound, twice_area_of_edge(size->edge_length(p)) / 2);
+    if (sizes.by_place())
+      for (const Point& p : {a, m, b}) bound = std::min(bound, twice_area_of_edge(sizes.length_at(p)) / 2);
     return kPresplitSpacing * kPresplitSpacing * bound;
   }
 };
@@ -36,17 +37,13 @@ void cut(const Spacing& spacing, const Point& a, const Point& b, dyadic::Path pa
 
 }  // namespace
 
-bool bounds_size(const QualityBounds& bounds) {
-  return bounds.max_area > 0 || bounds.size != nullptr ||
-         std::any_of(bounds.region_max_area.begin(), bounds.region_max_area.end(),
-                     [](double area) { return area > 0; });
-}
-
 std::vector<dyadic::Path> presplit_paths(const Decomposition& d, GlobalRootId root, const QualityBounds& bounds) {
   std::vector<dyadic::Path> paths;
   const Decomposition::Root& r = d.roots[root];
-  if (!r.is_interface() || !bounds_size(bounds)) return paths;
-  const Spacing spacing{std::min(area_bound(bounds, r.left_region), area_bound(bounds, r.right_region)), bounds.size};
+  if (!r.is_interface()) return paths;
+  const SizeBounds sizes = bounds;
+  if (!sizes.any()) return paths;
+  const Spacing spacing{std::min(sizes.twice_area(r.left_region), sizes.twice_area(r.right_region)) / 2, sizes};
   cut(spacing, d.points[r.a], d.points[r.b], dyadic::kWhole, paths);
   return paths;
 }

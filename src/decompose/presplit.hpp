@@ -29,7 +29,4 @@ inline constexpr double kPresplitSpacing = 1.5196;
 /// Those of all interfaces that have some.
 using PresplitPaths = std::map<GlobalRootId, std::vector<dyadic::Path>>;
 
-/// Whether there is any bound on size. Presplitting needs one.
-[[nodiscard]] bool bounds_size(const QualityBounds& bounds);
-
 }  // namespace driftmesh

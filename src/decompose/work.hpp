@@ -1,9 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
-#include "mesh/bounds.hpp"
+#include "mesh/size_bound.hpp"
 
 namespace driftmesh {
 
@@ -12,6 +11,6 @@ inline constexpr double kTrianglesPerBound = 1.55;
 
 /// The density of work, per area, in the region with this label. 1 everywhere if there is no bound on size; if only
 /// some regions have one, the others count as a tenth of the least dense of these.
-[[nodiscard]] double work_density(const QualityBounds& bounds, std::uint16_t region);
+[[nodiscard]] double work_density(const SizeBounds& sizes, std::uint16_t region);
 
 }  // namespace driftmesh

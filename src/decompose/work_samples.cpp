@@ -13,58 +13,33 @@
 namespace driftmesh {
 namespace {
 
-/// A size field with all lengths multiplied by a factor.
-class ScaledField final : public SizeField {
- public:
-  ScaledField(const SizeField& field, double factor) : field_(field), factor_(factor) {}
-  [[nodiscard]] double edge_length(const Point& p) const override { return factor_ * field_.edge_length(p); }
-  [[nodiscard]] double least() const override { return factor_ * field_.least(); }
-  [[nodiscard]] bool falls_below(const std::array<Point, 3>& triangle, double length) const override {
-    return field_.falls_below(triangle, length / factor_);
-  }
-
- private:
-  const SizeField& field_;
-  double factor_;
-};
-
-/// Area bounds `factor` times as large.
-QualityBounds coarser(const QualityBounds& bounds, double factor, const SizeField* size) {
-  QualityBounds coarse = bounds;
-  coarse.max_area *= factor;
-  for (double& area : coarse.region_max_area) area *= factor;
-  coarse.size = size;
-  return coarse;
-}
-
 /// The expected number of triangles in a triangle of the coarse mesh: the average density times the area.
-double work_in(const Triangulation& mesh, TriangleId t, const QualityBounds& bounds) {
+double work_in(const Triangulation& mesh, TriangleId t, const SizeBounds& sizes) {
   const Point &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
   const double area = orient2d(a, b, c) / 2;
   const std::uint16_t region = mesh.region.empty() ? std::uint16_t{0} : mesh.region[t];
-  const double least = kTrianglesPerBound / area_bound(bounds, region);
+  const double least = 2 * kTrianglesPerBound / sizes.twice_area(region);
   double density = 0;
   for (const auto& [u, v, w] : {std::array<double, 3>{4, 1, 1}, {1, 4, 1}, {1, 1, 4}}) {
     const Point p{(u * a.x + v * b.x + w * c.x) / 6, (u * a.y + v * b.y + w * c.y) / 6};
-    density += std::max(least, 2 * kTrianglesPerBound / twice_area_of_edge(bounds.size->edge_length(p)));
+    density += std::max(least, 2 * kTrianglesPerBound / twice_area_of_edge(sizes.length_at(p)));
   }
   return std::max(1.0, area * density / 3);
 }
 
-/// By a coarse mesh, graded by the size field itself.
-WorkSamples sample_sized(const Triangulation& mesh, const QualityBounds& bounds, double count) {
+/// By a coarse mesh, graded as the fine one will be.
+WorkSamples sample_sized(const Triangulation& mesh, double min_angle, const SizeBounds& sizes, double count) {
   Triangulation coarse = mesh;
-  const double final_size = BoundForecast(mesh, bounds).total();
+  const double final_size = BoundForecast(mesh, sizes).total();
   const double factor = std::max(1.0, final_size / count);
-  const ScaledField field(*bounds.size, std::sqrt(factor));
-  Refiner refiner(coarse, coarser(bounds, factor, &field));
+  Refiner refiner(coarse, min_angle, sizes.coarser(factor));
   refiner.limit_triangles(static_cast<std::int64_t>(20 * count + 10 * static_cast<double>(mesh.live_triangles())));
   refiner.refine();
   WorkSamples samples;
   for (const TriangleId t : ids_of(coarse.triangles)) {
     if (!coarse.triangles[t].alive()) continue;
     const Point &a = coarse.corner(t, 0), &b = coarse.corner(t, 1), &c = coarse.corner(t, 2);
-    samples.push_back({{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3}, work_in(coarse, t, bounds)});
+    samples.push_back({{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3}, work_in(coarse, t, sizes)});
   }
   return samples;
 }
@@ -101,8 +76,9 @@ void for_each_crossing(std::span<const WorkSample> samples, const Point& a, cons
 }  // namespace
 
 WorkSamples sample_work(const Triangulation& mesh, const QualityBounds& bounds, double forecast, double count) {
-  WorkSamples samples =
-      bounds.size != nullptr ? sample_sized(mesh, bounds, count) : sample_detailed(mesh, bounds, forecast, count);
+  const SizeBounds sizes = bounds;
+  WorkSamples samples = sizes.by_place() ? sample_sized(mesh, bounds.min_angle, sizes, count)
+                                         : sample_detailed(mesh, bounds, forecast, count);
   std::sort(samples.begin(), samples.end(), [](const WorkSample& p, const WorkSample& q) {
     return p.at.y != q.at.y ? p.at.y < q.at.y : p.at.x < q.at.x;
   });

@@ -125,9 +125,9 @@ void describe(KeyInfo& info, const char* name, Member Owner::*member, const char
   (rest(info), ...);
 }
 
-/// A key whose value is a member of one of the request's sections.
-template <class Section, class Member, class... Rest>
-Key key(const char* name, Section R::*section, Member Section::*member, const char* help, const Rest&... rest) {
+/// A key whose value is a member of one of the request's sections, or of its base.
+template <class Section, class Owner, class Member, class... Rest>
+Key key(const char* name, Section R::*section, Member Owner::*member, const char* help, const Rest&... rest) {
   Key made;
   describe(made, name, member, help, rest...);
   made.store = [=](R& r, const Value& value) { r.*section.*member = member_of<Member>(value); };

@@ -60,7 +60,7 @@ Order in_one_piece(const Asked& asked, const Place& place, Domain&& domain, Tria
                    [&] { return find_narrow_place(triangulated.mesh); });
   record.acute_corners = triangulated.acute_corners;
   record.forecast = triangulated.forecast;
-  record.max_area = triangulated.bounds.max_area;
+  record.max_area = triangulated.bounds.plain.area;
   Order order;
   order.limits = limits;
   order.use = use;

@@ -9,12 +9,12 @@
 #include "balancer/stealing/policy_stealing.hpp"
 #include "decompose/decompose.hpp"
 #include "decompose/decomposition_file.hpp"
-#include "decompose/presplit.hpp"
 #include "decompose/same_input.hpp"
 #include "decompose/same_segments.hpp"
 #include "driftmesh/policy_parameters.hpp"
 #include "job/key.hpp"
 #include "mapping/mapping_file.hpp"
+#include "mesh/size_bound.hpp"
 #include "pslg/seeded_random.hpp"
 #include "runtime/plan_run.hpp"
 
@@ -58,11 +58,12 @@ void disturb_forecasts(Decomposition& decomposition, double most, std::uint64_t 
   for (auto& subdomain : decomposition.subdomains) subdomain.predicted *= std::pow(most, random.uniform(-1, 1));
 }
 
-void check_presplit(const Request& request, const QualityBounds& bounds) {
-  if (request.run.presplit == Presplit::kOn && !bounds_size(bounds))
+void check_presplit(const Request& request, const SizeBounds& sizes) {
+  const bool sized = sizes.any();
+  if (request.run.presplit == Presplit::kOn && !sized)
     throw KeyError("run.presplit", "is on, but nothing says how long the pieces of interfaces may be",
                    "give {bounds.area}, {bounds.triangles} or {sizing.size}, or remove it");
-  if (request.run.method == Method::kDecoupled && !bounds_size(bounds))
+  if (request.run.method == Method::kDecoupled && !sized)
     throw KeyError("run.method", "is decoupled, but nothing says how long the pieces of interfaces may be",
                    "give {bounds.area} or {bounds.triangles}, or use the coupled method");
 }

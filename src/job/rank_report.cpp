@@ -45,7 +45,7 @@ void add_plan(RunRecord& run, const RunPlan& plan) {
 void add_prepared(RunRecord& run, const Prepared& prepared) {
   run.acute_corners = prepared.acute_corners;
   run.forecast = prepared.forecast;
-  run.max_area = prepared.plan.bounds.max_area;
+  run.max_area = prepared.plan.bounds.plain.area;
 }
 
 }  // namespace driftmesh::job

@@ -8,6 +8,7 @@
 #include "cluster/cluster_spec.hpp"
 #include "driftmesh/defaults.hpp"
 #include "mapping/mapping.hpp"
+#include "mesh/bounds.hpp"
 #include "mesh/handles.hpp"
 #include "runtime/agenda.hpp"
 #include "runtime/plan_run.hpp"
@@ -47,12 +48,10 @@ struct Request {
     std::map<std::string, std::string> rasters;       ///< their files, by name
   } input;
 
-  struct Bounds {
+  struct Bounds : PlainBounds {
     double angle = defaults::kMinAngle;
-    double area = 0;                ///< 0: no bound
     double triangles = 0;           ///< in place of an area; 0: not given
     double triangles_per_rank = 0;  ///< the same
-    bool region_areas = true;
   } bounds;
 
   struct Sizing {

@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/words.hpp"
-#include "decompose/presplit.hpp"
 #include "decompose/work.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "job/value.hpp"
@@ -18,6 +16,7 @@
 #include "mesh/domain_warnings.hpp"
 #include "mesh/forecast.hpp"
 #include "mesh/narrow_place.hpp"
+#include "mesh/size_bound.hpp"
 
 namespace driftmesh::job {
 namespace {
@@ -35,10 +34,10 @@ double area_bound_of(const Request::Bounds& bounds, const Triangulation& mesh, s
 }
 
 QualityBounds bounds_of(const Request& request, const Domain& domain, const Triangulation& mesh, std::int32_t ranks) {
-  return {.min_angle = request.bounds.angle,
-          .max_area = area_bound_of(request.bounds, mesh, ranks),
-          .region_max_area = request.bounds.region_areas ? region_areas(domain.pslg) : std::vector<double>(),
-          .size = domain.size.get()};
+  QualityBounds bounds{.min_angle = request.bounds.angle, .plain = request.bounds, .size = domain.size.get()};
+  bounds.plain.area = area_bound_of(request.bounds, mesh, ranks);
+  if (bounds.plain.region_areas) bounds.region_max_area = areas_by_region(domain.pslg);
+  return bounds;
 }
 
 /// One place where the background mesh does not say what size is asked for, if there is one.
@@ -53,20 +52,19 @@ std::vector<std::string> background_warnings(const Domain& domain, const Triangu
   return {};
 }
 
-/// The edge length that the bounds ask for there, except for bounds of regions.
-double asked_edge(const QualityBounds& bounds, const Point& at) {
-  double edge = std::numeric_limits<double>::infinity();
-  if (bounds.max_area > 0) edge = edge_of_twice_area(2 * bounds.max_area);
-  if (bounds.size != nullptr) edge = std::min(edge, bounds.size->edge_length(at));
-  return edge;
+/// The edge length that the bounds ask for there, outside all regions.
+double asked_edge(const SizeBounds& sizes, const Point& at) {
+  const double by_area = edge_of_twice_area(sizes.twice_area(0));
+  return sizes.by_place() ? std::min(by_area, sizes.length_at(at)) : by_area;
 }
 
 /// Distances between segments that cost many triangles, unless the bounds ask for as small ones there.
 std::vector<std::string> narrow_warnings(const Triangulation& mesh, const QualityBounds& bounds, double forecast) {
   constexpr double kMany = 10'000;
   if (bounds.min_angle == 0) return {};
+  const SizeBounds sizes = bounds;
   std::vector<NarrowPlace> places = find_narrow_places(mesh);
-  std::erase_if(places, [&](const NarrowPlace& place) { return asked_edge(bounds, place.at) <= place.width; });
+  std::erase_if(places, [&](const NarrowPlace& place) { return asked_edge(sizes, place.at) <= place.width; });
   if (places.empty()) return {};
   double all = 0;
   for (const NarrowPlace& place : places) all += place.triangles;
@@ -103,7 +101,7 @@ Triangulated triangulate_domain(const Request& request, const Domain& domain, st
     warn(request, background_warnings(domain, result.mesh), watch);
     result.bounds = bounds_of(request, domain, result.mesh, ranks);
     const auto count = [&] { result.forecast = forecast_triangles(result.mesh, result.bounds); };
-    const bool if_large = cut == Cut::kIfLarge && bounds_size(result.bounds);
+    const bool if_large = cut == Cut::kIfLarge && SizeBounds(result.bounds).any();
     if (if_large) count();  // acute corners, not yet prepared, change little there
     result.cut = cut == Cut::kAlways || (if_large && is_large(result.mesh, result.forecast));
     result.acute_corners =

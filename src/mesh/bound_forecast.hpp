@@ -2,7 +2,6 @@
 
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/area_bounds.hpp"
-#include "mesh/bounds.hpp"
 #include "mesh/triangulation.hpp"
 
 namespace driftmesh {
@@ -10,8 +9,8 @@ namespace driftmesh {
 /// How many triangles the bounds on area and size ask for, by themselves: the area over the mean area of triangles.
 class BoundForecast {
  public:
-  /// Mesh and size field must outlive it. `bounds` must be possible.
-  BoundForecast(const Triangulation& mesh, const QualityBounds& bounds);
+  /// The mesh must outlive it.
+  BoundForecast(const Triangulation& mesh, const SizeBounds& sizes);
 
   /// The number in triangle t, which has this area, as a fraction: 0 without a bound.
   [[nodiscard]] double in(TriangleId t, double twice_area) const;
@@ -20,18 +19,15 @@ class BoundForecast {
   [[nodiscard]] double total() const;
   /// The same without rounding up: what the bounds ask for.
   [[nodiscard]] double asked() const;
-  /// Whether there is any bound.
-  [[nodiscard]] bool any() const;
 
  private:
   const Triangulation& mesh_;
-  const SizeField* size_;
   AreaBounds areas_;
-  IdVector<VertexId, double> at_vertices_;  // the size field, where there are triangles
+  IdVector<VertexId, double> at_vertices_;  // lengths, where there are triangles
 };
 
-/// Not less than the total, and takes no more than a look at each triangle: with the least length that the size field
-/// has anywhere. Not a finite number if that is unknown.
-[[nodiscard]] double most_in_total(const Triangulation& mesh, const QualityBounds& bounds);
+/// Not less than the total, and takes no more than a look at each triangle: with the least length that is asked for
+/// anywhere. Not a finite number if that is unknown.
+[[nodiscard]] double most_in_total(const Triangulation& mesh, const SizeBounds& sizes);
 
 }  // namespace driftmesh

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -12,13 +11,19 @@
 
 namespace driftmesh {
 
+/// What bounds the sizes of triangles in plain values, as requests, plans and checks hand it on.
+struct PlainBounds {
+  double area = 0;           ///< largest area of a triangle; <= 0: no bound
+  bool region_areas = true;  ///< whether the area bounds of the input's regions apply
+};
+
 /// The bounds that every triangle of a finished mesh must meet. Lengths and areas are in the units of the input's
 /// coordinates.
 struct QualityBounds {
   double min_angle = defaults::kMinAngle;  ///< degrees; 0: no bound
-  double max_area = 0;                     ///< <= 0: no bound
+  PlainBounds plain{};
   /// Bound of each region label (see triangulate), <= 0 for none; empty if regions set no bounds.
-  std::vector<double> region_max_area;
+  std::vector<double> region_max_area{};
   /// Target edge length as a function of position, or null. Not owned.
   const SizeField* size = nullptr;
 };
@@ -28,10 +33,10 @@ struct QualityBounds {
 inline constexpr double kMaxAngle = 34;
 
 /// The area bounds that an input sets by region labels; 0 for label 0, which is outside all regions.
-[[nodiscard]] std::vector<double> region_areas(const Pslg& pslg);
+[[nodiscard]] std::vector<double> areas_by_region(const Pslg& pslg);
 
-/// Throws Error if a bound is NaN or the angle bound lies outside [0, kMaxAngle].
-void require_possible(const QualityBounds& bounds);
+/// Throws Error if the angle bound lies outside [0, kMaxAngle].
+void require_possible(double min_angle);
 
 /// Twice the area of the equilateral triangle with edges of length h.
 [[nodiscard]] inline double twice_area_of_edge(double h) {
@@ -44,9 +49,5 @@ void require_possible(const QualityBounds& bounds);
 }
 
 inline constexpr double kNoBound = std::numeric_limits<double>::infinity();
-
-/// The largest area that a triangle in the region with this label may have; kNoBound if there is no bound. Does not
-/// consider the size field.
-[[nodiscard]] double area_bound(const QualityBounds& bounds, std::uint16_t region);
 
 }  // namespace driftmesh

@@ -23,11 +23,11 @@ int apex_of_shortest_edge(const Triangulation& mesh, TriangleId t) {
   return static_cast<int>(std::min_element(squared.begin(), squared.end()) - squared.begin());
 }
 
-/// The values of a size field at vertices, each asked for once, when it is needed.
+/// The lengths that are asked for at vertices, each looked up once, when it is needed.
 class SizeAtVertices {
  public:
-  SizeAtVertices(const Triangulation& mesh, const SizeField* field)
-      : mesh_(mesh), field_(field), values_(field != nullptr ? mesh.points.size() : 0, kNotAsked) {}
+  SizeAtVertices(const Triangulation& mesh, const SizeBounds& sizes)
+      : mesh_(mesh), sizes_(sizes), values_(sizes.by_place() ? mesh.points.size() : 0, kNotAsked) {}
 
   [[nodiscard]] double least_at_corners(TriangleId t) {
     double least = std::numeric_limits<double>::infinity();
@@ -37,13 +37,13 @@ class SizeAtVertices {
 
  private:
   [[nodiscard]] double at(VertexId v) {
-    if (values_[v] == kNotAsked) values_[v] = field_->edge_length(mesh_.points[v]);
+    if (values_[v] == kNotAsked) values_[v] = sizes_.length_at(mesh_.points[v]);
     return values_[v];
   }
 
-  static constexpr double kNotAsked = 0;  // no value of a size field
+  static constexpr double kNotAsked = 0;  // no length
   const Triangulation& mesh_;
-  const SizeField* field_;
+  const SizeBounds& sizes_;
   IdVector<VertexId, double> values_;
 };
 
@@ -95,10 +95,10 @@ Inspection inspect(const Triangulation& mesh, const QualityBounds& bounds) {
   Inspection found;
   const double sine = std::sin(bounds.min_angle / kDegrees);
   const AreaBounds areas(mesh, bounds);
-  SizeAtVertices sizes(mesh, bounds.size);
+  SizeAtVertices sizes(mesh, areas.sizes());
   const auto is_large = [&](TriangleId t, double twice_area) {
     if (twice_area > areas.constant(t)) return true;
-    if (!areas.has_size()) return false;
+    if (!areas.by_place()) return false;
     const CornerPoints corners{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
     return areas.above_size(
         corners, twice_area, [&] { return sizes.least_at_corners(t); }, true);

@@ -53,20 +53,20 @@ class Improver {
     double longer_two;         // the product of their squared lengths
   };
 
-  /// Throws Error if a bound is NaN or the angle bound lies outside [0, kMaxAngle], and if the state has a fault.
-  Improver(Triangulation& mesh, const QualityBounds& bounds, RefinerState state)
+  /// Throws Error if the angle bound lies outside [0, kMaxAngle], and if the state has a fault.
+  Improver(Triangulation& mesh, double min_angle, const SizeBounds& sizes, RefinerState state)
       : mesh_(mesh),
-        bounds_(bounds),
+        min_angle_(min_angle),
         cavity_(mesh),
-        areas_(mesh, bounds, kMarginOfRefinement),
+        areas_(mesh, sizes, kMarginOfRefinement),
         state_(std::move(state)) {
-    require_possible(bounds);
+    require_possible(min_angle);
     // The relative margin makes the bound hold for readers of the file, which may round differently.
-    const double sine = std::sin(radians(bounds.min_angle));
+    const double sine = std::sin(radians(min_angle));
     sin_squared_ = sine * sine * (1 + 1e-9);
-    off_center_factor_ = bounds.min_angle > 0 ? off_center_factor(bounds.min_angle) : 0;
-    lens_.cos_squared = cos_squared_of_lens(bounds.min_angle);
-    if (const std::string fault = state_.fault(mesh, bounds); !fault.empty())
+    off_center_factor_ = min_angle > 0 ? off_center_factor(min_angle) : 0;
+    lens_.cos_squared = cos_squared_of_lens(min_angle);
+    if (const std::string fault = state_.fault(mesh, sizes); !fault.empty())
       throw Error("the state of refinement does not fit its mesh: " + fault);
   }
 
@@ -123,7 +123,7 @@ class Improver {
   }
 
   Triangulation& mesh_;
-  QualityBounds bounds_;
+  double min_angle_;
   Cavity cavity_;
   Lens lens_;
   double sin_squared_ = 0;  // for the angle bound, with a margin for rounding
@@ -147,9 +147,9 @@ class Improver {
 
   VertexId add_vertex(const Point& p, VertexOrigin origin) {
     const VertexId v = mesh_.add_vertex(p, origin);
-    if (bounds_.size != nullptr) {
+    if (areas_.by_place()) {
       if (!state_.size.has(v)) state_.size.resize_uninitialized(to_index(v) + 1);
-      state_.size[v] = bounds_.size->edge_length(p);
+      state_.size[v] = areas_.sizes().length_at(p);
     }
     return v;
   }

@@ -19,20 +19,10 @@ constexpr double kFinePerBlock = 65536;
 
 constexpr std::int32_t kFetchAhead = 6;  // slots, see fetch_surroundings
 
-RefinerState initial_state(const Triangulation& mesh, const QualityBounds& bounds) {
-  RefinerState state;
-  if (bounds.size != nullptr)
-    for (const Point& p : mesh.points) state.size.push_back(bounds.size->edge_length(p));
-  return state;
-}
-
 }  // namespace
 
-Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds)
-    : Refiner(mesh, bounds, initial_state(mesh, bounds)) {}
-
-Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds, RefinerState state)
-    : Improver(mesh, bounds, std::move(state)) {
+Refiner::Refiner(Triangulation& mesh, double min_angle, const SizeBounds& sizes, RefinerState state)
+    : Improver(mesh, min_angle, sizes, std::move(state)) {
   coarsening_ = state_.stage == Stage::kCoarse ? kFinePerCoarse : 1;
   if (state_.stage == Stage::kDone) cavity_.rest();
   if (state_.sweep.ended()) cavity_.begin_by_place();
@@ -42,7 +32,7 @@ Refiner::Refiner(Triangulation& mesh, const QualityBounds& bounds, RefinerState 
 
 /// Whether a triangle with twice this area is too large.
 inline bool Refiner::is_large(TriangleId t, double twice_area) const {
-  return twice_area > coarsening_ * areas_.constant(t) || (areas_.has_size() && is_large_for_size(t, twice_area));
+  return twice_area > coarsening_ * areas_.constant(t) || (areas_.by_place() && is_large_for_size(t, twice_area));
 }
 
 bool Refiner::is_large_for_size(TriangleId t, double twice_area) const {
@@ -54,10 +44,10 @@ bool Refiner::is_large_for_size(TriangleId t, double twice_area) const {
 /// The bound on twice the area of a triangle that is not too large.
 double Refiner::twice_area_bound(TriangleId t) const {
   double bound = coarsening_ * areas_.constant(t);
-  if (!areas_.has_size()) return bound;
+  if (!areas_.by_place()) return bound;
   const auto limit = [&](double h) { bound = std::min(bound, twice_area_of_edge(h) * coarsening_); };
   for (const VertexId v : mesh_.triangles[t].vertex) limit(state_.size[v]);
-  limit(bounds_.size->edge_length(centroid(corners(t))));
+  limit(areas_.sizes().length_at(centroid(corners(t))));
   return bound;
 }
 
@@ -69,7 +59,7 @@ bool Refiner::looks_between() const {
 
 /// Makes up for what the fine stage has not looked at.
 void Refiner::look_between() {
-  if (bounds_.size == nullptr) return;
+  if (!areas_.by_place()) return;
   for (const TriangleId t : ids_of(mesh_.triangles))
     if (mesh_.triangles[t].alive() && areas_.above_size_between(corners(t), twice_area(t))) state_.sweep.visit_again(t);
 }
@@ -124,8 +114,8 @@ void Refiner::enter(Stage stage) {
       const bool after_coarse = coarsening_ != 1;
       coarsening_ = 1;
       if (after_coarse) renumber(mesh_, GivenVertices::kFirst);
-      if (after_coarse && bounds_.size != nullptr)
-        for (const VertexId v : ids_of(mesh_.points)) state_.size[v] = bounds_.size->edge_length(mesh_.points[v]);
+      if (after_coarse && areas_.by_place())
+        for (const VertexId v : ids_of(mesh_.points)) state_.size[v] = areas_.sizes().length_at(mesh_.points[v]);
       state_.sweep.start(size(), after_coarse ? static_cast<std::int32_t>(kFinePerBlock / kFinePerCoarse) : size());
       state_.skinny.clear();
       break;
@@ -151,14 +141,14 @@ void Refiner::enter(Stage stage) {
 /// Whether the finished mesh will outgrow the cache by far, so that it pays to refine it block by block.
 bool Refiner::wants_coarse_stage() const {
   const double large = std::max(4 * kFinePerBlock, kFinePerCoarse / 4 * static_cast<double>(mesh_.live_triangles()));
-  if (most_in_total(mesh_, bounds_) <= large) return false;  // such as nearly all subdomains
-  return BoundForecast(mesh_, bounds_).total() > large;
+  if (most_in_total(mesh_, areas_.sizes()) <= large) return false;  // such as nearly all subdomains
+  return BoundForecast(mesh_, areas_.sizes()).total() > large;
 }
 
 /// Splits the next given segment if its lens holds a vertex from the start. Done before anything else, this saves
 /// triangles where angles are bounded; otherwise a segment stays whole until a point encroaches upon it.
 bool Refiner::step_segments() {
-  if (bounds_.min_angle == 0 || state_.next_segment == mesh_.subsegments.next_id()) return false;
+  if (min_angle_ == 0 || state_.next_segment == mesh_.subsegments.next_id()) return false;
   const Subsegment& s = mesh_.subsegments[state_.next_segment];
   if (s.is_leaf()) {
     const Point &a = mesh_.points[s.vertex[0]], &b = mesh_.points[s.vertex[1]];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/bounds.hpp"
@@ -26,7 +27,10 @@ class Refiner : private Improver<Refiner> {
  public:
   /// `mesh` must outlive the refiner, and only the refiner may change it. Throws Error if a bound is NaN or the angle
   /// bound lies outside [0, kMaxAngle].
-  Refiner(Triangulation& mesh, const QualityBounds& bounds);
+  Refiner(Triangulation& mesh, const QualityBounds& bounds) : Refiner(mesh, bounds.min_angle, bounds) {}
+  /// The same for any bounds on sizes.
+  Refiner(Triangulation& mesh, double min_angle, const SizeBounds& sizes)
+      : Refiner(mesh, min_angle, sizes, RefinerState::at_start(mesh, sizes)) {}
 
   enum class Status {
     kDone,    ///< every triangle meets the bounds, except for those that exceptions.hpp explains
@@ -47,9 +51,11 @@ class Refiner : private Improver<Refiner> {
 
   [[nodiscard]] const RefinerState& state() const { return state_; }
   /// Continues from a state. Throws Error like the other constructor, and if the state has a fault.
-  Refiner(Triangulation& mesh, const QualityBounds& bounds, RefinerState state);
+  Refiner(Triangulation& mesh, const QualityBounds& bounds, RefinerState state)
+      : Refiner(mesh, bounds.min_angle, bounds, std::move(state)) {}
 
  private:
+  Refiner(Triangulation& mesh, double min_angle, const SizeBounds& sizes, RefinerState state);
   friend Improver;
   using Stage = RefinerState::Stage;
 

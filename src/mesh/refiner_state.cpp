@@ -34,17 +34,22 @@ bool is_sound(const SkinnyBuckets& skinny, const Triangulation& mesh) {
 
 }  // namespace
 
-RefinerState RefinerState::at_rest(const Triangulation& mesh, const QualityBounds& bounds) {
+RefinerState RefinerState::at_start(const Triangulation& mesh, const SizeBounds& sizes) {
   RefinerState state;
-  state.stage = Stage::kDone;
-  state.next_segment = mesh.subsegments.next_id();
-  state.sweep.end();
-  if (bounds.size != nullptr)
-    for (const Point& p : mesh.points) state.size.push_back(bounds.size->edge_length(p));
+  if (sizes.by_place())
+    for (const Point& p : mesh.points) state.size.push_back(sizes.length_at(p));
   return state;
 }
 
-std::string RefinerState::fault(const Triangulation& mesh, const QualityBounds& bounds) const {
+RefinerState RefinerState::at_rest(const Triangulation& mesh, const SizeBounds& sizes) {
+  RefinerState state = at_start(mesh, sizes);
+  state.stage = Stage::kDone;
+  state.next_segment = mesh.subsegments.next_id();
+  state.sweep.end();
+  return state;
+}
+
+std::string RefinerState::fault(const Triangulation& mesh, const SizeBounds& sizes) const {
   if (stage > Stage::kDone) return "there is no such stage";
   if (!mesh.subsegments.has(next_segment) && next_segment != mesh.subsegments.next_id())
     return "the next segment does not exist";
@@ -57,8 +62,8 @@ std::string RefinerState::fault(const Triangulation& mesh, const QualityBounds& 
       return "a split point is on no root";
   if (!is_sound(counters)) return "a counter is negative or impossibly large";
   if (max_triangles > kMostRefined) return "the limit on triangles exceeds what handles can name";
-  if (bounds.size != nullptr && size.size() < mesh.points.size()) return "the size field is missing at some vertex";
-  const std::size_t labels = bounds.region_max_area.size();
+  if (sizes.by_place() && size.size() < mesh.points.size()) return "the size field is missing at some vertex";
+  const std::size_t labels = sizes.regions();
   if (labels > 1 && std::any_of(mesh.region.begin(), mesh.region.end(), [&](auto label) { return label >= labels; }))
     return "a region has no bound";
   return "";

@@ -7,8 +7,8 @@
 
 #include "base/growing_array.hpp"
 #include "dyadic/split_point.hpp"
-#include "mesh/bounds.hpp"
 #include "mesh/refine_counters.hpp"
+#include "mesh/size_bound.hpp"
 #include "mesh/triangulation.hpp"
 #include "mesh/worklist.hpp"
 
@@ -26,17 +26,19 @@ struct RefinerState {
   GrowingArray<TriangleId> deferred;              ///< skinny ones, until kRest
   std::unordered_set<SubsegmentId> unsplittable;  ///< coordinates are too coarse for their midpoints
   std::vector<SplitPoint<RootId>> made;           ///< split points not yet taken by take_split_points
-  GrowingArray<double, VertexId> size;            ///< the size field at each vertex; empty without one
+  GrowingArray<double, VertexId> size;            ///< the length that is asked for at each vertex; empty if none is
   std::int64_t max_triangles = kMostRefined;
   RefineCounters counters;
 
+  /// The state of a refiner that begins with `mesh`.
+  [[nodiscard]] static RefinerState at_start(const Triangulation& mesh, const SizeBounds& sizes);
   /// The state of a refiner that has finished `mesh`, with no work queued: what it does when it is told of points is
   /// the same whatever the order of slots, and the corner at which each triangle begins.
-  [[nodiscard]] static RefinerState at_rest(const Triangulation& mesh, const QualityBounds& bounds);
+  [[nodiscard]] static RefinerState at_rest(const Triangulation& mesh, const SizeBounds& sizes);
 
   /// The reason why this state would make a refiner of this mesh and these bounds access invalid memory: a handle that
   /// does not exist, or an array of the wrong length. Empty if the state is sound.
-  [[nodiscard]] std::string fault(const Triangulation& mesh, const QualityBounds& bounds) const;
+  [[nodiscard]] std::string fault(const Triangulation& mesh, const SizeBounds& sizes) const;
 };
 
 }  // namespace driftmesh

@@ -24,7 +24,7 @@ void transfer_plan(Stream& stream, Plan& plan) {
   stream.array(d.point_list);
   stream.array(plan.owners);
   stream.value(plan.bounds.min_angle);
-  stream.value(plan.bounds.max_area);
+  stream.value(plan.bounds.plain);
   stream.array(plan.bounds.region_max_area);
   stream.value(plan.presplit);
   stream.value(plan.work);

@@ -52,9 +52,9 @@ double forecast_of(const RunPlan& plan, std::optional<Rank> rank) {
 
 RunPlan plan_run(Decomposition decomposition, const QualityBounds& bounds, const PlanOptions& options,
                  const balancer::PolicyMaker& policies) {
-  require_possible(bounds);
+  require_possible(bounds.min_angle);
   if (options.work.slice < 1) throw Error("a slice must be at least one insertion");
-  const bool sized = bounds_size(bounds);
+  const bool sized = SizeBounds(bounds).any();
   RunPlan plan;
   plan.owners = options.owners.empty() ? map_subdomains(decomposition, options.mapping) : options.owners;
   plan.decomposition = std::move(decomposition);

@@ -16,7 +16,7 @@ namespace {
 RunPlan pipe_plan(double area, std::int32_t subdomains) {
   Triangulation mesh = triangulate(generate_pipe({}));
   prepare_corners(mesh);
-  const QualityBounds bounds{20, area, {}, nullptr};
+  const QualityBounds bounds{20, {area}, {}, nullptr};
   DecomposeOptions cutting;
   cutting.subdomains = subdomains;
   cutting.bounds = bounds;

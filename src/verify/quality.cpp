@@ -43,6 +43,11 @@ Shape shape_of(const Point& a, const Point& b, const Point& c) {
           {(abx * cax + aby * cay) * scale, (abx * bcx + aby * bcy) * scale, (bcx * cax + bcy * cay) * scale}};
 }
 
+/// The largest triangle that plain bounds allow, wherever it is.
+double largest_area(const PlainBounds& bounds) {
+  return bounds.area > 0 ? bounds.area : std::numeric_limits<double>::infinity();
+}
+
 /// Bins of one degree by cotangent.
 class DegreeBins {
  public:
@@ -85,7 +90,11 @@ class DegreeBins {
 class Measurement {
  public:
   Measurement(const NamedMesh& mesh, const CheckedBounds& bounds)
-      : names_(mesh), mesh_(mesh.mesh()), bounds_(bounds), take_([this](const Suspect& s) { measures_.add(s); }) {
+      : names_(mesh),
+        mesh_(mesh.mesh()),
+        bounds_(bounds),
+        take_([this](const Suspect& s) { measures_.add(s); }),
+        area_everywhere_(largest_area(bounds.plain)) {
     max_ratio_ = largest_ratio(bounds.min_angle);
     if (bounds.min_angle > 0)
       sure_cotangent_ = static_cast<double>(1 / std::tan(static_cast<long double>(bounds.min_angle) / kDegrees));
@@ -153,9 +162,8 @@ class Measurement {
     const Extremes& known = measures_.extremes;
     return all.smallest_twice_area > 0 && all.largest_cotangent <= std::min(known.largest_cotangent, sure_cotangent_) &&
            all.smallest_cotangent >= known.smallest_cotangent && all.smallest_twice_area >= known.smallest_twice_area &&
-           all.largest_twice_area <= known.largest_twice_area &&
-           (bounds_.max_area == 0 || all.largest_twice_area <= 2 * bounds_.max_area) && !bounds_.region_area &&
-           bounds_.size == nullptr;
+           all.largest_twice_area <= known.largest_twice_area && all.largest_twice_area <= 2 * area_everywhere_ &&
+           !bounds_.region_area && bounds_.size == nullptr;
   }
 
   void look_at(std::size_t t) {
@@ -189,7 +197,7 @@ class Measurement {
   }
 
   [[nodiscard]] double area_bound(std::size_t t) const {
-    double bound = bounds_.max_area > 0 ? bounds_.max_area : std::numeric_limits<double>::infinity();
+    double bound = area_everywhere_;
     if (bounds_.region_area)
       if (const double own = bounds_.region_area(t); own > 0) bound = std::min(bound, own);
     if (bounds_.size != nullptr) bound = std::min(bound, area_of_edge(bounds_.size->at_corners(corners(t))));
@@ -227,6 +235,7 @@ class Measurement {
   const DegreeBins bins_;
   std::array<std::array<std::uint64_t, 180>, 3> angles_{};  // by corner, so that counts seldom wait for each other
   Measures measures_;
+  double area_everywhere_;
   long double max_ratio_ = 0;
   double sure_cotangent_ = std::numeric_limits<double>::infinity();
 };

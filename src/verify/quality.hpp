@@ -10,6 +10,7 @@
 
 #include "driftmesh/id_vector.hpp"
 #include "driftmesh/point.hpp"
+#include "mesh/bounds.hpp"
 #include "verify/extended.hpp"
 #include "verify/size_check.hpp"
 #include "verify/words.hpp"
@@ -53,8 +54,8 @@ struct Quality {
 };
 
 struct CheckedBounds {
-  double min_angle = 0;                                     ///< degrees; 0: no bound
-  double max_area = 0;                                      ///< 0: no bound
+  double min_angle = 0;  ///< degrees; 0: no bound
+  PlainBounds plain{};
   std::function<double(std::size_t triangle)> region_area;  ///< empty, or each triangle's own bound (<= 0: none)
   const SizeCheck* size = nullptr;                          ///< target edge lengths; null: none
 };

@@ -98,7 +98,7 @@ std::string what_was_checked(const VerifyReport& report, const VerifyOptions& op
   if (options.min_angle > 0) text += fmt::format(", angles of at least {} degrees", options.min_angle);
   if (const auto n = report.quality.exception_count(); n != 0)
     text += fmt::format(" except for {} triangles that the input explains", grouped(n));
-  if (options.max_area > 0) text += fmt::format(", areas of at most {}", options.max_area);
+  if (options.plain.area > 0) text += fmt::format(", areas of at most {}", options.plain.area);
   if (options.size != nullptr) text += ", sizes asked for";
   return text;
 }

@@ -75,7 +75,7 @@ class Verification {
 
   void check_pieces() {
     if (options_.size != nullptr) size_.emplace(*options_.size, options_.size_spacing, largest_triangle());
-    bounds_ = {options_.min_angle, options_.max_area, {}, size_ ? &*size_ : nullptr};
+    bounds_ = {options_.min_angle, options_.plain, {}, size_ ? &*size_ : nullptr};
     check_all_pieces();
     if (whole_) return;
     shared_ = PieceNumbers(found_).shared();
@@ -287,7 +287,7 @@ class Verification {
 
   [[nodiscard]] CheckedBounds bounds_in(const std::vector<std::int32_t>& faces) const {
     CheckedBounds bounds = bounds_;
-    if (faces_ && options_.region_areas)
+    if (faces_ && options_.plain.region_areas)
       bounds.region_area = [&](std::size_t t) {
         const Pslg::Region* region = faces[t] == kNone ? nullptr : domain_->region_of(faces[t]);
         return region != nullptr ? region->max_area : 0;

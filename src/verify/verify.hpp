@@ -8,6 +8,7 @@
 #include "driftmesh/mesh.hpp"
 #include "driftmesh/pslg.hpp"
 #include "driftmesh/size_field.hpp"
+#include "mesh/bounds.hpp"
 #include "verify/findings.hpp"
 #include "verify/quality.hpp"
 
@@ -16,8 +17,7 @@ namespace driftmesh {
 /// The bounds that a mesh should meet, and what to report.
 struct VerifyOptions {
   double min_angle = 0;             ///< degrees; 0: no bound
-  double max_area = 0;              ///< in squared units of the coordinates; 0: no bound besides those of the regions
-  bool region_areas = true;         ///< whether the input's regions bound the areas of their triangles
+  PlainBounds plain{};              ///< areas are in squared units of the coordinates
   const SizeField* size = nullptr;  ///< target edge lengths that bound areas, or null; must outlive the call
   /// Inside large triangles the size is looked up four times in each square of this side; 0: at 16 points only.
   double size_spacing = 0;

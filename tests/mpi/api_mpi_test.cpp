@@ -114,7 +114,7 @@ TEST_CASE("the pieces of all ranks make one mesh, whatever the options") {
           CHECK(mesh_digest(whole) == digest);
           VerifyOptions verify_options;
           verify_options.min_angle = 25;
-          verify_options.max_area = options.max_area;
+          verify_options.plain.area = options.max_area;
           verify_options.size = size;
           CHECK(verify(whole, input, verify_options).accepted());
           CHECK(static_cast<std::int64_t>(whole.points.size()) == piece.total_points);

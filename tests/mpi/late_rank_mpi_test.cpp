@@ -70,7 +70,7 @@ struct LoopReport {
 };
 
 void check_mesh(const Mesh& mesh, const Pslg& input, const QualityBounds& bounds) {
-  const VerifyOptions options{.min_angle = bounds.min_angle, .max_area = bounds.max_area};
+  const VerifyOptions options{.min_angle = bounds.min_angle, .plain = {.area = bounds.plain.area}};
   const VerifyReport report = verify(mesh, input, options);
   CHECK_MESSAGE(report.accepted(), report_text(report, options));
   CHECK(mesh.triangles.size() > kTriangles / 2);

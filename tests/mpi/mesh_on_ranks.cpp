@@ -138,8 +138,8 @@ Outcome run(const Job& job) {
   prepare_corners(mesh);
   Outcome outcome;
   outcome.leads = team.leads();
-  outcome.bounds.max_area = summarize_angles(mesh).total_area / job.cells;
-  outcome.bounds.region_max_area = region_areas(job.input);
+  outcome.bounds.plain.area = summarize_angles(mesh).total_area / job.cells;
+  outcome.bounds.region_max_area = areas_by_region(job.input);
   job::Order order;
   order.plan = plan_of(job, outcome.bounds, mesh, team.ranks());
   order.pslg = job.input;
@@ -164,7 +164,7 @@ Outcome run(const Job& job) {
 void check(const Job& job, const Outcome& outcome) {
   if (!outcome.leads) return;
   for (const std::string& problem : outcome.problems) FAIL_CHECK(problem);
-  const VerifyOptions options{.min_angle = outcome.bounds.min_angle, .max_area = outcome.bounds.max_area};
+  const VerifyOptions options{.min_angle = outcome.bounds.min_angle, .plain = {.area = outcome.bounds.plain.area}};
   const VerifyReport report = verify(outcome.mesh, job.input, options);
   CHECK_MESSAGE(report.accepted(), report_text(report, options));
   CHECK(outcome.mesh.triangles.size() > job.cells);

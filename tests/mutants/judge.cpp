@@ -195,7 +195,7 @@ std::string fault_of_its_mesh(const Decomposition& decomposition) {
   options.max_area = kDecomposedArea;
   options.subdomains.given = std::make_shared<const Decomposition>(decomposition);
   VerifyOptions bounds;
-  bounds.max_area = options.max_area;
+  bounds.plain.area = options.max_area;
   bounds.min_angle = options.min_angle;
   const Pslg domain = testing::varied_domain();
   const VerifyReport report = verify(mesh(domain, options), domain, bounds);

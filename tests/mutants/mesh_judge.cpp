@@ -120,7 +120,7 @@ MeshVerdict judge(const MeshSample& sample, const Mesh& mesh, std::uint64_t seed
   Comparison compare(verdict);
   const oracles::Fault alone = oracles::fault_of(mesh), truth = oracles::fault_of(mesh, sample.input, sample.mesh);
   verdict.fault = truth.what;
-  VerifyOptions options{.region_areas = false, .threads = 1 + seed % 3};
+  VerifyOptions options{.plain = {.region_areas = false}, .threads = 1 + seed % 3};
   compare.expect("verify by itself", verify(mesh, options), alone);
   const VerifyReport whole = verify(mesh, sample.input, options);
   compare.expect("verify", whole, truth);

@@ -58,8 +58,8 @@ MeshingOutcome repair_mesh_and_verify(Pslg input, const job::Request& request) {
     repair(input);
     VerifyOptions options;
     options.min_angle = made.record.complete ? request.bounds.angle : 0;
-    options.max_area = made.record.complete ? request.bounds.area : 0;
-    options.region_areas = made.record.complete && request.bounds.region_areas;
+    options.plain.area = made.record.complete ? request.bounds.area : 0;
+    options.plain.region_areas = made.record.complete && request.bounds.region_areas;
     const VerifyReport report = verify(made.mesh, input, options);
     outcome.complete = made.record.complete;
     outcome.triangles = made.mesh.triangles.size();

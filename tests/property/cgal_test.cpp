@@ -319,7 +319,7 @@ TEST_CASE("CGAL's refined meshes are accepted with the angle bound that they wer
     const Mesh mesh = to_mesh(cdt, random.input);
     REQUIRE(mesh.triangles.size() > 100);
     VerifyOptions options;
-    options.region_areas = false;
+    options.plain.region_areas = false;
     VerifyReport report = verify(mesh, random.input, options);
     if (!report.accepted()) MESSAGE(report_text(report, options));
     CHECK(report.accepted());

@@ -354,7 +354,7 @@ TEST_CASE("random domains, refined apart, conform after exchanging split points"
     const Decomposition d = decompose(mesh, options);
     QualityBounds bounds;
     bounds.min_angle = seed % 2 == 0 ? 20 : 25;
-    bounds.max_area = total_area(mesh) / 300;
+    bounds.plain.area = total_area(mesh) / 300;
     const auto refined = testing::refine_together(d, bounds);
     CHECK(refined.not_conforming.empty());
     CHECK(refined.refused == 0);

@@ -35,8 +35,8 @@ void check_whole(const DistributedCase& c, const std::vector<DistributedPiece>& 
   CHECK(mesh_digest(whole) == digest_of_parts);
   VerifyOptions options;
   options.min_angle = c.bounds.min_angle;
-  options.max_area = c.bounds.max_area;
-  options.region_areas = false;
+  options.plain.area = c.bounds.plain.area;
+  options.plain.region_areas = false;
   const VerifyReport report = verify_pieces(meshes_of(pieces), &c.input, options);
   const std::string text = verdict_text(report, options) + "\n" + report_text(report, options);
   INFO(text);

@@ -271,7 +271,7 @@ TEST_CASE("what the least length asks for everywhere is not less than what is as
     CAPTURE(i);
     const Triangulation mesh = triangulated(i % 2 == 0 ? with_gaps(random) : square());
     QualityBounds bounds;
-    if (i % 3 == 0) bounds.max_area = std::pow(10, exponent(random));
+    if (i % 3 == 0) bounds.plain.area = std::pow(10, exponent(random));
     area = std::max(area, share_of_most(mesh, bounds));
     const Spots some(random);
     bounds.size = &some;

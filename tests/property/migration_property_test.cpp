@@ -277,7 +277,7 @@ TEST_CASE("large subdomains that move while refined in blocks end the same") {
   for (const bool sized : {false, true}) {
     CAPTURE(sized);
     SubdomainContext context{&d, {}, false};
-    context.bounds.max_area = d.subdomains.front().area / 280'000;
+    context.bounds.plain.area = d.subdomains.front().area / 280'000;
     if (sized) context.bounds.size = &field;
     Subdomain stays(SubdomainId{0}, context), moves(SubdomainId{0}, context);
     std::vector<SplitPoint<GlobalRootId>> said;

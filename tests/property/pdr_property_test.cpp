@@ -50,7 +50,7 @@ Case random_case(std::uint64_t seed) {
   double area = 0;
   for (const TriangleId t : ids_of(c.mesh.triangles))
     if (c.mesh.triangles[t].alive()) area += signed_area(c.mesh.corner(t, 0), c.mesh.corner(t, 1), c.mesh.corner(t, 2));
-  c.bounds.max_area = area / 20'000;
+  c.bounds.plain.area = area / 20'000;
   return c;
 }
 
@@ -80,8 +80,8 @@ void refine_directly(const Ranks& ranks) {
 void check_mesh(const Case& c, const Mesh& mesh) {
   VerifyOptions options;
   options.min_angle = c.bounds.min_angle;
-  options.max_area = c.bounds.max_area;
-  options.region_areas = false;
+  options.plain.area = c.bounds.plain.area;
+  options.plain.region_areas = false;
   const VerifyReport report = verify(mesh, c.input, options);
   const std::string text = verdict_text(report, options) + "\n" + report_text(report, options);
   INFO(text);

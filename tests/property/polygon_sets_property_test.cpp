@@ -166,7 +166,7 @@ class Trial {
       repair(repaired);
       const Mesh mesh = driftmesh::mesh(other.given, options_for(1));
       if (check(mesh, case_.given, options_for(1)).accepted) return "the mesh of another set is accepted";
-      const VerifyReport report = verify(mesh, repaired, {.region_areas = false, .given = &case_.given});
+      const VerifyReport report = verify(mesh, repaired, {.plain = {.region_areas = false}, .given = &case_.given});
       if (report.findings.count(Flaw::kWrongPolygons) == 0 && report.polygons_judged)
         return "another reading of the polygons is not noticed";
     } catch (const Error&) {

@@ -74,7 +74,7 @@ class Case {
     Triangulation mesh = triangulate(input_);
     prepare_corners(mesh);
     bounds_.min_angle = std::uniform_real_distribution(15.0, 28.0)(random);
-    if (random() % 2 == 0) bounds_.max_area = 0.02;
+    if (random() % 2 == 0) bounds_.plain.area = 0.02;
     if (random() % 3 == 0) expression_ = "0.05 + 0.2*abs(x)";
     sizes_ = fields(1);
     bounds_.size = sizes_.front().get();
@@ -168,8 +168,8 @@ class Case {
     exchange_directly(IdVector<Rank, Exchange*>{&assembly});  // throws unless both sides of each root conform
     VerifyOptions options;
     options.min_angle = bounds_.min_angle;
-    options.max_area = bounds_.max_area;
-    options.region_areas = false;
+    options.plain.area = bounds_.plain.area;
+    options.plain.region_areas = false;
     options.size = bounds_.size;
     const VerifyReport report = verify(assembly.piece(input_).mesh, input_, options);
     CAPTURE(presplit);

@@ -28,7 +28,7 @@ TEST_CASE("inputs that once failed") {
         VerifyOptions options;
         if (made.record.complete) {
           options.min_angle = angle;
-          options.max_area = area;
+          options.plain.area = area;
         }
         const VerifyReport report = verify(made.mesh, repaired, options);
         CHECK(report.findings.count(Flaw::kNotDelaunay) == 0);

@@ -43,8 +43,8 @@ TEST_CASE("real inputs are meshed and verified against themselves") {
       CAPTURE(angle);
       VerifyOptions options;
       options.min_angle = angle;
-      if (angle == 20 && real.area > 0) options.max_area = real.area / 5000;
-      const Mesh mesh = testing::made(given, testing::bounded(angle, options.max_area)).mesh;
+      if (angle == 20 && real.area > 0) options.plain.area = real.area / 5000;
+      const Mesh mesh = testing::made(given, testing::bounded(angle, options.plain.area)).mesh;
       const VerifyReport report = verify(mesh, input, options);
       INFO(report_text(report, options));
       CHECK(report.accepted());

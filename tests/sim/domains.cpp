@@ -19,7 +19,7 @@ namespace {
 /// The ingredients of a domain before it is triangulated.
 struct Recipe {
   Pslg input;
-  QualityBounds bounds{20, 0, {}, nullptr};
+  QualityBounds bounds{20, {0}, {}, nullptr};
   std::unique_ptr<SizeField> size;
 };
 
@@ -32,7 +32,7 @@ void add_ring(Pslg& pslg, const std::vector<Point>& ring, std::int32_t marker) {
 Recipe square() {
   Recipe r;
   add_ring(r.input, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 1);
-  r.bounds.max_area = 0.005;
+  r.bounds.plain.area = 0.005;
   return r;
 }
 
@@ -41,7 +41,7 @@ Recipe ell() {
   add_ring(r.input, {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, 1);
   add_ring(r.input, {{0.3, 0.3}, {0.6, 0.3}, {0.6, 0.6}, {0.3, 0.6}}, 2);
   r.input.holes = {{0.45, 0.45}};
-  r.bounds.max_area = 0.015;
+  r.bounds.plain.area = 0.015;
   return r;
 }
 
@@ -52,7 +52,7 @@ Recipe wedge() {
   r.input.points.insert(r.input.points.end(), {{2, 0.4}, {2.9, 0.2}, {2.3, 0.242}, {2.5, 0.75}, {2.6, 0.9}});
   r.input.segments.insert(r.input.segments.end(), {{0, 3, 2}, {4, 5, 3}, {5, 3, 3}, {6, 7, 4}});
   r.bounds.min_angle = 25;
-  r.bounds.max_area = 0.1;
+  r.bounds.plain.area = 0.1;
   return r;
 }
 
@@ -64,7 +64,7 @@ Recipe apart() {
   add_ring(r.input, {{2.5, 0.5}, {3.5, 0.5}, {3.5, 1.5}, {2.5, 1.5}}, 3);
   add_ring(r.input, {{2.8, 0.8}, {3.2, 0.8}, {3.1, 1.2}, {2.9, 1.2}}, 4);
   r.input.holes = {{2.6, 0.6}};
-  r.bounds.max_area = 0.03;
+  r.bounds.plain.area = 0.03;
   return r;
 }
 
@@ -89,7 +89,7 @@ class Radial final : public SizeField {
 Recipe sized() {
   Recipe r = square();
   r.size = std::make_unique<Radial>();
-  r.bounds.max_area = 0;
+  r.bounds.plain.area = 0;
   r.bounds.size = r.size.get();
   return r;
 }

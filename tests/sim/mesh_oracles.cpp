@@ -70,7 +70,7 @@ std::string verdict_on_mesh(const Domain& domain, const Decomposition& decomposi
                             const std::vector<const Subdomain*>& subdomains) {
   VerifyOptions options;
   options.min_angle = domain.bounds().min_angle;
-  options.max_area = domain.bounds().max_area;
+  options.plain.area = domain.bounds().plain.area;
   options.size = domain.bounds().size;
   const VerifyReport report = verify(merge(domain, decomposition, subdomains), domain.input(), options);
   return report.accepted() ? "" : report_text(report, options);

@@ -86,7 +86,7 @@ inline DistributedCase random_distributed_case(std::uint64_t seed) {
     }
   QualityBounds bounds;
   bounds.min_angle = 20;
-  bounds.max_area = area / 200;
+  bounds.plain.area = area / 200;
   return {std::move(input), static_cast<std::int32_t>(1 + random() % 12), bounds};
 }
 

@@ -42,7 +42,7 @@ inline IdVector<SubdomainId, Rank> late_owners(std::size_t subdomains, std::int3
 inline RunPlan late_plan(const Pslg& input, double triangles, std::int32_t ranks, const LateCase& late) {
   const double area = summarize_angles(triangulate(input)).total_area;
   RunPlan plan =
-      plan_for(input, {20, 1.5 * area / triangles, {}, nullptr}, ranks, std::max(40, 20 * ranks), Presplit::kOff);
+      plan_for(input, {20, {1.5 * area / triangles}, {}, nullptr}, ranks, std::max(40, 20 * ranks), Presplit::kOff);
   plan.owners = late_owners(plan.owners.size(), ranks, late);
   plan.work.slice = 40;
   plan.work.aggregation = 8;

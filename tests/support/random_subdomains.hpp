@@ -61,10 +61,10 @@ class RandomSubdomains {
   void choose_bounds(const Pslg& input, double area, double triangles) {
     QualityBounds& bounds = context_.bounds;
     bounds.min_angle = random_() % 2 == 0 ? 20 : 26;
-    bounds.max_area = area / triangles * 1.5;
+    bounds.plain.area = area / triangles * 1.5;
     if (!input.regions.empty() && random_() % 2 == 0) {
       bounds.region_max_area.assign(input.regions.size() + 1, 0);
-      for (double& bound : bounds.region_max_area) bound = random_() % 2 == 0 ? 0 : bounds.max_area / 3;
+      for (double& bound : bounds.region_max_area) bound = random_() % 2 == 0 ? 0 : bounds.plain.area / 3;
       bounds.region_max_area[0] = 0;  // outside all regions
     }
     if (random_() % 3 != 0) return;

@@ -19,7 +19,7 @@ constexpr double kPipeArea = 190'000;
 
 /// The pipe in about so many triangles.
 RunPlan pipe_plan(double triangles, std::int32_t ranks, std::int32_t subdomains, Presplit presplit) {
-  const QualityBounds bounds{20, 1.55 * kPipeArea / triangles, {}, nullptr};
+  const QualityBounds bounds{20, {1.55 * kPipeArea / triangles}, {}, nullptr};
   return testing::plan_for(generate_pipe({}), bounds, ranks, subdomains, presplit);
 }
 
@@ -205,7 +205,7 @@ TEST_CASE("a plan for more ranks than the cluster has is rejected") {
 }
 
 TEST_CASE("where details of the input decide, work is even on paper and balancing does no harm") {
-  const QualityBounds bounds{30, 0, {}, nullptr};
+  const QualityBounds bounds{30, {0}, {}, nullptr};
   RunPlan plan = testing::plan_for(generate_bay({}), bounds, 4, 200, Presplit::kOff);
   ClusterSpec cluster;
   cluster.groups = {{"slow", 4, 100e3}};

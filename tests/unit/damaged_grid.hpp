@@ -18,7 +18,7 @@ namespace driftmesh::testing {
 inline VerifyReport check(const oracles::GridCase& grid, double min_angle = 44.9, double max_area = 0.51) {
   VerifyOptions options;
   options.min_angle = min_angle;
-  options.max_area = max_area;
+  options.plain.area = max_area;
   return verify(grid.mesh, grid.input, options);
 }
 

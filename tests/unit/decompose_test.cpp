@@ -277,7 +277,7 @@ TEST_CASE("thin wedges are cut across, and shells stay aligned") {
       CHECK(report.smallest_angle >= 54);
       CHECK(report.largest_load <= 2);
       QualityBounds bounds;
-      bounds.max_area = report.area / 3000;
+      bounds.plain.area = report.area / 3000;
       const auto refined = testing::refine_together(d, bounds);
       CHECK(refined.not_conforming.empty());
       for (const SubdomainMesh& part : refined.parts)
@@ -293,7 +293,7 @@ TEST_CASE("subdomains refined apart conform after exchanging split points") {
     const Decomposition d = decompose_into(mesh, 23);
     QualityBounds bounds;
     bounds.min_angle = angle;
-    bounds.max_area = 1e-3;
+    bounds.plain.area = 1e-3;
     const auto refined = testing::refine_together(d, bounds);
     CHECK(refined.exchanged > 0);
     CHECK(refined.refused == 0);

@@ -33,7 +33,7 @@ namespace {
 DistributedCase plate(std::int32_t subdomains) {
   QualityBounds bounds;
   bounds.min_angle = 20;
-  bounds.max_area = 0.05;
+  bounds.plain.area = 0.05;
   return {generate_holes({.columns = 3, .rows = 2}), subdomains, bounds};
 }
 

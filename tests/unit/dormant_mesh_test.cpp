@@ -175,7 +175,7 @@ TEST_CASE("a sleeping mesh takes at most 16 bytes per triangle, with everything 
     double area = 0;
     for (const auto& s : d.subdomains) area += s.area;
     SubdomainContext context{&d, {}, false};
-    context.bounds.max_area = area / 40'000;
+    context.bounds.plain.area = area / 40'000;
     std::size_t bytes = 0, triangles = 0;
     for (const SubdomainId i : first_ids<SubdomainId>(8)) {
       const SubdomainMesh part = refined(context, i);

@@ -22,7 +22,7 @@ namespace {
 QualityBounds bounds_with(double angle, double area) {
   QualityBounds bounds;
   bounds.min_angle = angle;
-  bounds.max_area = area;
+  bounds.plain.area = area;
   return bounds;
 }
 

@@ -109,7 +109,7 @@ TEST_CASE("ranks that share an uncut domain are told its input, bounds, and thei
   RunRecord record;
   static_cast<void>(make({request, kExperiment, kPolicies}, place, record, watch));
   CHECK(place.told.shares == IdVector<Rank, double>{1, 0.5});
-  CHECK(place.told.plan.bounds.max_area == record.max_area);
+  CHECK(place.told.plan.bounds.plain.area == record.max_area);
   CHECK(record.max_area > 0);
   CHECK(record.forecast == doctest::Approx(2e4).epsilon(0.1));
   CHECK(static_cast<std::int64_t>(place.told.pslg.points.size()) == record.input_points);

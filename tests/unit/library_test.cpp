@@ -41,7 +41,7 @@ std::string error_of_options(const MeshOptions& options) {
 bool accepted(const Mesh& made, const MeshOptions& options) {
   VerifyOptions asked;
   asked.min_angle = options.min_angle;
-  asked.max_area = options.max_area;
+  asked.plain.area = options.max_area;
   return verify(made, plate(), asked).accepted();
 }
 

@@ -38,8 +38,7 @@ double total_area(const Triangulation& mesh) {
 
 /// Checks that the mesh meets the bounds of the request, but for the angles that the verifier accepts.
 void check_mesh(const Made& made, const Pslg& pslg, const job::Request& request) {
-  const VerifyOptions options{
-      .min_angle = request.bounds.angle, .max_area = request.bounds.area, .region_areas = request.bounds.region_areas};
+  const VerifyOptions options{.min_angle = request.bounds.angle, .plain = request.bounds};
   const VerifyReport report = verify(made.mesh, pslg, options);
   CHECK_MESSAGE(report.accepted(), report_text(report, options));
 }

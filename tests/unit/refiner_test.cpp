@@ -24,7 +24,7 @@ using namespace driftmesh::testing;
 TEST_CASE("a mesh made in slices is the same") {
   const Pslg pslg = fan(3, 9);
   QualityBounds bounds;
-  bounds.max_area = 1e-4;
+  bounds.plain.area = 1e-4;
   Triangulation whole = triangulate(pslg), sliced = triangulate(pslg);
   CHECK(Refiner(whole, bounds).refine() == Refiner::Status::kDone);
   Refiner refiner(sliced, bounds);
@@ -48,7 +48,7 @@ TEST_CASE("refinement leaves a sound triangulation, stopped or not, with small a
         prepare_corners(mesh, {angle, false});
         QualityBounds bounds;
         bounds.min_angle = angle;
-        bounds.max_area = 1e-3;
+        bounds.plain.area = 1e-3;
         const Refiner::Status status = Refiner(mesh, bounds).refine(insertions);
         CHECK((status == Refiner::Status::kDone) == (insertions > 100));
         check_valid(mesh);
@@ -58,7 +58,7 @@ TEST_CASE("refinement leaves a sound triangulation, stopped or not, with small a
 TEST_CASE("a refiner made from a copy of mesh and state continues identically") {
   const Pslg pslg = fan(7, 9);
   QualityBounds bounds;
-  bounds.max_area = 1e-3;
+  bounds.plain.area = 1e-3;
   for (const std::int64_t before : {0, 1, 5, 40, 300, 1500, 100000}) {
     CAPTURE(before);
     Triangulation mesh = triangulate(pslg);
@@ -113,7 +113,7 @@ TEST_CASE("a state that refers to parts outside its mesh is rejected") {
 
 TEST_CASE("external split points are inserted with their ancestors at any time") {
   QualityBounds bounds;
-  bounds.max_area = 1e-3;
+  bounds.plain.area = 1e-3;
   for (const std::int64_t before : {0, 1, 50, 300, 100000}) {
     Triangulation mesh = triangulate(rectangle(2, 1));
     Refiner refiner(mesh, bounds);
@@ -138,7 +138,7 @@ TEST_CASE("the refiner reports the points it has put on segments, ancestors firs
   Triangulation mesh = triangulate(fan(11, 5));
   IdVector<RootId, std::vector<dyadic::Path>> known(mesh.roots.size());
   const RootId first{0};
-  Refiner refiner(mesh, QualityBounds{20, 0.01, {}, nullptr});
+  Refiner refiner(mesh, QualityBounds{20, {0.01}, {}, nullptr});
   const auto take_in = [&](RootId root, dyadic::Path path) {
     auto& paths = known[root];
     REQUIRE(std::find(paths.begin(), paths.end(), path) == paths.end());

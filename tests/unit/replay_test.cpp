@@ -89,7 +89,7 @@ TEST_CASE("a replay with the policy of the run takes about as long, and moves ab
     const ClusterSpec cluster = draw_cluster(one);
     const std::int32_t ranks = ranks_of(cluster);
     const double triangles = 8e3 * ranks;
-    RunPlan plan = testing::plan_for(generate_pipe({}), {20, 1.55 * 190'000 / triangles, {}, nullptr}, ranks,
+    RunPlan plan = testing::plan_for(generate_pipe({}), {20, {1.55 * 190'000 / triangles}, {}, nullptr}, ranks,
                                      16 * ranks, Presplit::kOn);
     plan.balancing.options.cost.latency = cluster.latency + 2 * cluster.message_overhead;
     for (const std::string& policy : balancer::policy_names()) {

@@ -15,7 +15,7 @@ TEST_CASE("a rank that abandons the run ends it on all ranks, and no message is 
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
       CAPTURE(policy);
       CAPTURE(seed);
-      RunPlan plan = plan_of(ell(), {20, 3e-4, {}, nullptr}, 3, 20, Presplit::kOff);
+      RunPlan plan = plan_of(ell(), {20, {3e-4}, {}, nullptr}, 3, 20, Presplit::kOff);
       plan.balancing.policy = policy;
       plan.balancing.options.look = 3;
       plan.balancing.options.gap = 10;
@@ -54,7 +54,7 @@ TEST_CASE("an exception in a slice of work leaves a loop that can abandon the ru
       return 0.1;
     }
   } field;
-  const RunPlan plan = plan_of(ell(), {20, 0, {}, &field}, 2, 8, Presplit::kOff);
+  const RunPlan plan = plan_of(ell(), {20, {0}, {}, &field}, 2, 8, Presplit::kOff);
   protocol::AdversarialNetwork network(2, protocol::Adversary::from_seed(1));
   SimulatedRanks run(network, 2, plan);
   field.broken = true;

@@ -18,7 +18,7 @@ TEST_CASE("ranks on an adversarial network make one conforming mesh") {
       for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         CAPTURE(ranks);
         CAPTURE(seed);
-        const RunPlan plan = plan_of(ell(), {20, 2e-3, {}, nullptr}, ranks, 12, presplit);
+        const RunPlan plan = plan_of(ell(), {20, {2e-3}, {}, nullptr}, ranks, 12, presplit);
         protocol::AdversarialNetwork network(ranks, protocol::Adversary::from_seed(seed));
         SimulatedRanks run(network, ranks, plan);
         REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
@@ -35,7 +35,7 @@ TEST_CASE("subdomains that move during refinement make the same mesh as those th
       for (std::uint64_t seed = 1; seed <= 8; ++seed) {
         CAPTURE(ranks);
         CAPTURE(seed);
-        const RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, ranks, 20, presplit);
+        const RunPlan plan = plan_of(ell(), {20, {1e-3}, {}, nullptr}, ranks, 20, presplit);
         protocol::AdversarialNetwork network(ranks, protocol::Adversary::from_seed(seed));
         SimulatedRanks run(network, ranks, plan);
         std::mt19937_64 random(seed);
@@ -63,7 +63,7 @@ TEST_CASE("subdomains that move during refinement make the same mesh as those th
 }
 
 TEST_CASE("in virtual time two ranks take about half as long as one") {
-  const QualityBounds bounds{20, 3e-5, {}, nullptr};
+  const QualityBounds bounds{20, {3e-5}, {}, nullptr};
   double seconds[2] = {};
   for (const std::int32_t ranks : {1, 2}) {
     const RunPlan plan = plan_of(ell(), bounds, ranks, 40, Presplit::kOff);
@@ -82,7 +82,7 @@ TEST_CASE("in virtual time two ranks take about half as long as one") {
 }
 
 TEST_CASE("every policy gives a slow rank less work and leaves the mesh unchanged") {
-  const QualityBounds bounds{20, 1e-4, {}, nullptr};
+  const QualityBounds bounds{20, {1e-4}, {}, nullptr};
   const IdVector<Rank, double> speeds{1, 1, 0.25};
   std::uint64_t digest = 0;
   double without = 0;
@@ -114,7 +114,7 @@ TEST_CASE("every policy gives a slow rank less work and leaves the mesh unchange
 }
 
 TEST_CASE("a rank that is asked for work gives some before its next slice, however long that is") {
-  RunPlan plan = plan_of(ell(), {20, 1e-4, {}, nullptr}, 2, 40, Presplit::kOn);
+  RunPlan plan = plan_of(ell(), {20, {1e-4}, {}, nullptr}, 2, 40, Presplit::kOn);
   plan.work.slice = 1'000'000;
   for (Rank& owner : plan.owners) owner = Rank{0};
   plan.balancing.policy = "stealing";

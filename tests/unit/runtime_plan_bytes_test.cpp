@@ -8,7 +8,7 @@ using namespace driftmesh;
 using namespace driftmesh::testing;
 
 TEST_CASE("a plan is the same after a trip through bytes, and damaged bytes are rejected") {
-  RunPlan plan = plan_of(ell(), {25, 1e-3, {0, 0.5}, nullptr}, 3, 9, Presplit::kOff);
+  RunPlan plan = plan_of(ell(), {25, {1e-3, false}, {0, 0.5}, nullptr}, 3, 9, Presplit::kOff);
   plan.work.aggregation = 17;
   plan.max_triangles = 12345;
   const Bytes bytes = plan_to_bytes(plan);
@@ -16,6 +16,8 @@ TEST_CASE("a plan is the same after a trip through bytes, and damaged bytes are 
   CHECK(copy.decomposition == plan.decomposition);
   CHECK(copy.owners == plan.owners);
   CHECK(copy.bounds.min_angle == 25);
+  CHECK(copy.bounds.plain.area == plan.bounds.plain.area);
+  CHECK(!copy.bounds.plain.region_areas);
   CHECK(copy.bounds.region_max_area == plan.bounds.region_max_area);
   CHECK(!copy.presplit);
   CHECK(copy.work.aggregation == 17);

@@ -15,7 +15,7 @@ TEST_CASE("with presplit interfaces a uniform bound needs no SPLIT, and the mesh
   std::uint64_t digest = 0;
   for (const std::int32_t ranks : {1, 2, 3, 7})
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-      const RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, ranks, 20, Presplit::kAuto);
+      const RunPlan plan = plan_of(ell(), {20, {1e-3}, {}, nullptr}, ranks, 20, Presplit::kAuto);
       protocol::AdversarialNetwork network(ranks, protocol::Adversary::from_seed(seed));
       SimulatedRanks run(network, ranks, plan);
       REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
@@ -29,7 +29,7 @@ TEST_CASE("decoupled ranks send nothing, and make the same mesh") {
   std::uint64_t digest = 0;
   for (const bool decoupled : {false, true})
     for (const std::int32_t ranks : {2, 3}) {
-      RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, ranks, 20, Presplit::kAuto);
+      RunPlan plan = plan_of(ell(), {20, {1e-3}, {}, nullptr}, ranks, 20, Presplit::kAuto);
       plan.work.decoupled = decoupled;
       protocol::AdversarialNetwork network(ranks, protocol::Adversary::from_seed(1));
       SimulatedRanks run(network, ranks, plan);
@@ -41,7 +41,7 @@ TEST_CASE("decoupled ranks send nothing, and make the same mesh") {
 }
 
 TEST_CASE("a decoupled subdomain that needs a point on an interface is an error, and no other rank is told") {
-  RunPlan plan = plan_of(ell(), {30, 0, {}, nullptr}, 2, 20, Presplit::kAuto);  // nothing is presplit
+  RunPlan plan = plan_of(ell(), {30, {0}, {}, nullptr}, 2, 20, Presplit::kAuto);  // nothing is presplit
   plan.work.decoupled = true;
   protocol::AdversarialNetwork network(2, protocol::Adversary::from_seed(1));
   SimulatedRanks run(network, 2, plan);
@@ -63,7 +63,7 @@ TEST_CASE("the size bound does not split presplit interfaces whose pieces are as
   // The equilateral triangle of area 1 has edges of length 2 / 3^(1/4) = 1.51967...: just below it, and just above.
   for (const double length : {1.5196, 1.5198, 1.52})
     for (std::size_t i = 0; i < 20; ++i) {
-      RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, 1, 20, Presplit::kOn);
+      RunPlan plan = plan_of(ell(), {20, {1e-3}, {}, nullptr}, 1, 20, Presplit::kOn);
       const auto& roots = plan.decomposition.roots;
       const auto root = std::find_if(roots.begin() + static_cast<std::ptrdiff_t>(i * roots.size() / 20), roots.end(),
                                      [](const Decomposition::Root& r) { return r.is_interface(); });
@@ -71,7 +71,7 @@ TEST_CASE("the size bound does not split presplit interfaces whose pieces are as
       const double whole =
           std::sqrt(squared_distance(plan.decomposition.points[root->a], plan.decomposition.points[root->b]));
       const double spacing = std::ldexp(whole / length, -static_cast<int>(std::ceil(std::log2(whole / 0.04))));
-      plan.bounds.max_area = spacing * spacing;
+      plan.bounds.plain.area = spacing * spacing;
       protocol::AdversarialNetwork network(1, protocol::Adversary::from_seed(1));
       SimulatedRanks run(network, 1, plan);
       REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
@@ -82,7 +82,7 @@ TEST_CASE("the size bound does not split presplit interfaces whose pieces are as
 }
 
 TEST_CASE("presplit points are in order, symmetric, and end at the spacing") {
-  const RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, 1, 6, Presplit::kOn);
+  const RunPlan plan = plan_of(ell(), {20, {1e-3}, {}, nullptr}, 1, 6, Presplit::kOn);
   std::size_t interfaces = 0;
   for (const GlobalRootId r : ids_of(plan.decomposition.roots)) {
     const auto& root = plan.decomposition.roots[r];
@@ -104,5 +104,5 @@ TEST_CASE("presplit points are in order, symmetric, and end at the spacing") {
 }
 
 TEST_CASE("interfaces are not presplit without a bound on size") {
-  CHECK(!plan_of(ell(), {20, 0, {}, nullptr}, 1, 4, Presplit::kAuto).presplit);
+  CHECK(!plan_of(ell(), {20, {0}, {}, nullptr}, 1, 4, Presplit::kAuto).presplit);
 }

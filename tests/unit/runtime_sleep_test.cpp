@@ -13,7 +13,7 @@ using namespace driftmesh::testing;
 TEST_CASE("sleeping subdomains wake up when a new point arrives") {
   std::int64_t asleep = 0, split = 0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, 3, 20, Presplit::kOff);
+    RunPlan plan = plan_of(ell(), {20, {1e-3}, {}, nullptr}, 3, 20, Presplit::kOff);
     plan.work.sleep = true;
     protocol::AdversarialNetwork network(3, protocol::Adversary::from_seed(seed));
     SimulatedRanks run(network, 3, plan);
@@ -38,7 +38,7 @@ TEST_CASE("subdomains that sleep when finished make one conforming mesh, in memo
   for (const Presplit presplit : {Presplit::kOn, Presplit::kOff})
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
       CAPTURE(seed);
-      RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, 3, 20, presplit);
+      RunPlan plan = plan_of(ell(), {20, {1e-3}, {}, nullptr}, 3, 20, presplit);
       const SubdomainContext context{&plan.decomposition, plan.bounds, plan.presplit};
       std::uint64_t digest = 0, asleep_in_memory = 0;
       for (const Bed bed : {Bed::kNone, Bed::kMemory, Bed::kDisk}) {

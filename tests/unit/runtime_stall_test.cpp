@@ -18,7 +18,7 @@ TEST_CASE("a rank without work reports a stall only after a long wait") {
     [[nodiscard]] double now() const override { return time; }
     double time = 0;
   };
-  const RunPlan plan = plan_of(ell(), {20, 1e-3, {}, nullptr}, 2, 6, Presplit::kOn);
+  const RunPlan plan = plan_of(ell(), {20, {1e-3}, {}, nullptr}, 2, 6, Presplit::kOn);
   protocol::AdversarialNetwork network(2, {});
   Clocked transport(network.transport(1_rank));
   std::vector<std::string> alarms;

@@ -126,7 +126,7 @@ TEST_CASE("smoothing does not move a separator beside a wall") {
     (void)map.connect(bottom, top, PlanarMap::Kind::kSeparator);
     const SideId right = split({2, 0}, {2, 2}, {2, 1}), middle = split({1, 2}, {1, 0}, {1, 1});
     (void)map.connect(middle, right, PlanarMap::Kind::kSeparator);
-    const IdVector<PieceId, Piece> pieces = find_pieces(map, {});
+    const IdVector<PieceId, Piece> pieces = find_pieces(map, QualityBounds{});
     const IdVector<SideId, PieceId> piece_of = label_sides(map, pieces);
     Star star(map, piece_of, kBridgeAngle);
     REQUIRE(star.read(middle));

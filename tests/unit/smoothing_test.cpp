@@ -63,7 +63,7 @@ struct Smoothed {
 
 Smoothed smoothed(PlanarMap map) {
   Smoothed result{std::move(map), {}, 0};
-  result.pieces = find_pieces(result.map, {});
+  result.pieces = find_pieces(result.map, QualityBounds{});
   const IdRange<SubdomainId> each(result.pieces.size());
   smooth(result.map, result.pieces, {each.begin(), each.end()}, static_cast<std::int32_t>(result.pieces.size()),
          kSixty);

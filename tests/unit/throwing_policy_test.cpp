@@ -54,7 +54,7 @@ TEST_CASE("a policy that throws on one rank ends the run on all of them") {
   Pslg square;
   square.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   square.segments = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 0, 1}};
-  RunPlan plan = plan_for(square, {20, 1e-3, {}, nullptr}, 3, 20, Presplit::kOff);
+  RunPlan plan = plan_for(square, {20, {1e-3}, {}, nullptr}, 3, 20, Presplit::kOff);
   plan.work.slice = 50;
   plan.balancing.options.look = 3;
   plan.balancing.options.gap = 10;

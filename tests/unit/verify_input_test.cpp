@@ -189,7 +189,7 @@ TEST_CASE("the area bound of a region") {
   CHECK_ONLY(report, Flaw::kLargeArea);
   CHECK(report.findings.count(Flaw::kLargeArea) == 72);
   VerifyOptions options;
-  options.region_areas = false;
+  options.plain.region_areas = false;
   CHECK(verify(grid.mesh, grid.input, options).accepted());
 }
 

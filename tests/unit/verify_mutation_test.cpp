@@ -87,7 +87,7 @@ TEST_CASE("a triangle far beyond the domain does not take forever where sizes ar
   GridCase grid;
   grid.mesh.points[grid.at(2, 2)] = {1e60, 2};
   const VerifyReport report =
-      verify(grid.mesh, grid.input, {.region_areas = false, .size = &field, .size_spacing = 0.1});
+      verify(grid.mesh, grid.input, {.plain = {.region_areas = false}, .size = &field, .size_spacing = 0.1});
   CHECK(report.findings.count(Flaw::kNotCounterclockwise) > 0);
 }
 
@@ -253,7 +253,7 @@ TEST_CASE("the report does not depend on the number of threads") {
   std::mt19937 random(5);
   for (int round = 0; round < 60; ++round) {
     const Mesh mesh = randomly_damaged(random);
-    VerifyOptions options{.min_angle = 30, .max_area = 0.4};
+    VerifyOptions options{.min_angle = 30, .plain = {.area = 0.4}};
     const VerifyReport alone = verify(mesh, options);
     for (const std::size_t threads : {2, 3, round == 0 ? 300 : 7}) {
       options.threads = threads;

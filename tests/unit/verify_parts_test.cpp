@@ -337,7 +337,7 @@ TEST_CASE("chains end at corners, at forks and at bends") {
 TEST_CASE("the report names counts, exceptions and flaws, and ends in a verdict of one line") {
   VerifyOptions options;
   options.min_angle = 20;
-  options.max_area = 1;
+  options.plain.area = 1;
   const VerifyReport report =
       verify(one_triangle({0, 0}, {4, 0}, {4, 1}), options);  // area 2, smallest angle 14 degrees
   const std::string text = report_text(report, options);
@@ -345,7 +345,7 @@ TEST_CASE("the report names counts, exceptions and flaws, and ends in a verdict 
   CHECK(text.find("small angle of the input: 1") != std::string::npos);
   CHECK(text.find("large area: 1\n    triangle 0 (0 1 2) has area 2, at most 1 is allowed") != std::string::npos);
   CHECK(verdict_text(report, options) == "rejected: large area (1)");
-  options.max_area = 0;
+  options.plain.area = 0;
   CHECK(verdict_text(verify(one_triangle({0, 0}, {4, 0}, {4, 1}), options), options) ==
         "accepted: constrained Delaunay, angles of at least 20 degrees except for 1 triangles that the input explains");
 }

@@ -127,7 +127,7 @@ void check_same(const VerifyReport& pieces, const VerifyReport& whole) {
 VerifyOptions all_messages_with(double min_angle, double max_area) {
   VerifyOptions options;
   options.min_angle = min_angle;
-  options.max_area = max_area;
+  options.plain.area = max_area;
   options.max_listed = 10'000;
   return options;
 }
@@ -265,7 +265,7 @@ TEST_CASE("more suspects than are kept are found on a second look") {
     const std::vector<Mesh> pieces = cut(
         mesh, 3, [&](std::size_t t) { return t / size; }, random);
     for (const std::size_t threads : {1, 2}) {
-      VerifyOptions options{.min_angle = 20, .max_area = 0.0625};
+      VerifyOptions options{.min_angle = 20, .plain = {.area = 0.0625}};
       options.threads = threads;
       const VerifyReport report = verify_pieces(pieces, nullptr, options), whole = verify(mesh, options);
       CHECK(report.findings.count(Flaw::kSmallAngle) + report.quality.exception_count() == 2 * kColumns);

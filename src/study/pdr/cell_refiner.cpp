@@ -10,7 +10,7 @@
 namespace driftmesh::pdr {
 
 CellRefiner::CellRefiner(Triangulation& mesh, const QualityBounds& bounds, const Lattice& lattice)
-    : Improver(mesh, bounds, {}), lattice_(lattice) {
+    : Improver(mesh, bounds.min_angle, bounds, {}), lattice_(lattice) {
   for (const TriangleId t : ids_of(mesh.triangles)) touched_.push_back(t);
   take_touched();
 }

@@ -30,7 +30,7 @@ void each_triangle(const Triangulation& mesh, const Visit& visit) {
 }  // namespace
 
 Lattice start(Triangulation& mesh, const QualityBounds& bounds, std::int32_t ranks) {
-  if (!(bounds.max_area > 0) || bounds.size != nullptr || !(bounds.min_angle > 0))
+  if (!(bounds.plain.area > 0) || SizeBounds(bounds).by_place() || !(bounds.min_angle > 0))
     throw Error("partially coupled refinement needs one bound on area everywhere, and one on angles");
   Box box;
   each_triangle(mesh, [&](const Point& a, const Point& b, const Point& c) {
@@ -39,7 +39,7 @@ Lattice start(Triangulation& mesh, const QualityBounds& bounds, std::int32_t ran
   const double side = std::sqrt((box.high.x - box.low.x) * (box.high.y - box.low.y) / (kCellsPerRank * ranks));
   const double radius = side / kSidePerRadius;
   QualityBounds coarse = bounds;
-  coarse.max_area = std::max(kCoarsest * bounds.max_area, radius * radius / kSquaredRadiusPerArea);
+  coarse.plain.area = std::max(kCoarsest * bounds.plain.area, radius * radius / kSquaredRadiusPerArea);
   Refiner(mesh, coarse).refine();
   double largest = 0;  // circumradius
   each_triangle(mesh, [&](const Point& a, const Point& b, const Point& c) {
