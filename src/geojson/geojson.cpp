@@ -45,7 +45,8 @@ class FeatureReader {
     else
       ++feature_, read_geometry(root, Json::object(), 0);
     if (found_.polygons.empty() && found_.lines.empty() && found_.points.empty())
-      throw InputError({file_, 0}, "has no geometry", "there is nothing to mesh");
+      throw InputError({file_, 0}, found_.warnings.empty() ? "has no geometry" : found_.warnings.front(),
+                       "there is nothing to mesh");
     return std::move(found_);
   }
 
@@ -139,8 +140,12 @@ class FeatureReader {
     for (const Json& positions : rings) {
       PolygonRing ring = positions_in(positions);
       if (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
-      if (ring.size() < 3) fail("has a ring of fewer than three different corners", "remove it");
-      polygon.rings.push_back(std::move(ring));
+      if (ring.size() < 3)
+        found_.warnings.push_back("feature " + std::to_string(feature_) +
+                                  " has a ring of fewer than three different corners, which covers nothing");
+      else
+        polygon.rings.push_back(std::move(ring));
+      if (polygon.rings.empty()) return;  // the outer one covers nothing
     }
     found_.polygons.push_back(std::move(polygon));
   }

@@ -38,6 +38,10 @@ struct GeoFeatures {
                            ///< what was in Mercator's projection
   std::string projection;  ///< the UTM zone that the "crs" names by its EPSG code; empty: none
   std::string system;      ///< what the "crs" names; empty: nothing
+  std::vector<std::string> warnings;
+
+  /// Whether it is known what the numbers of positions mean.
+  [[nodiscard]] bool knows_system() const { return in_degrees || !projection.empty() || system.empty(); }
 };
 
 // The markers that the property "boundary" stands for: "land", "island", "open".

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/read_file.hpp"
+#include "base/standard_streams.hpp"
 #include "driftmesh/error.hpp"
 #include "geojson/each_point.hpp"
 #include "geojson/geojson.hpp"
@@ -34,11 +35,9 @@ bool could_be_degrees(GeoFeatures& features) {
   return could_be;
 }
 
-}  // namespace
-
-InputFile parse_geojson_input(const std::string& file, std::string_view text) {
-  GeoFeatures features = parse_geojson(file, text);
+InputFile to_input(const std::string& file, GeoFeatures features) {
   InputFile input;
+  input.warnings = features.warnings;
   if (could_be_degrees(features))
     input.warnings.push_back("coordinates in the system '" + features.system +
                              "' are taken for those of a plane, but look like degrees; if they are, convert the file: "
@@ -48,10 +47,25 @@ InputFile parse_geojson_input(const std::string& file, std::string_view text) {
   return input;
 }
 
+/// GDAL, if it is there, knows the systems that are not known here: what is in Mercator's projection or in feet does
+/// not go for meters.
+InputFile read_geojson(const std::string& path) {
+  GeoFeatures features = parse_geojson(path, read_file(path, kBeginsJson));
+  if (!features.knows_system() && !is_standard_stream(path) && can_read_vectors())
+    features = parse_geojson(path, vector_as_geojson(path, ""));
+  return to_input(path, std::move(features));
+}
+
+}  // namespace
+
+InputFile parse_geojson_input(const std::string& file, std::string_view text) {
+  return to_input(file, parse_geojson(file, text));
+}
+
 InputFile read_geometry(const std::string& path, const std::string& layers) {
   if (is_vector_file(path)) return parse_geojson_input(path, vector_as_geojson(path, layers));
   if (!layers.empty()) throw InputError({path}, "has no layers", "name layers of files that have some, such as .gpkg");
-  if (is_geojson(path)) return parse_geojson_input(path, read_file(path, kBeginsJson));
+  if (is_geojson(path)) return read_geojson(path);
   return {read_poly(path), {}, {}};
 }
 

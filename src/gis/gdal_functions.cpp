@@ -46,6 +46,11 @@ Loaded load() {
   return loaded;
 }
 
+const Loaded& loaded_once() {
+  static const Loaded loaded = load();
+  return loaded;
+}
+
 struct DriversOfExtension {
   const char* extension;
   std::vector<const char*> drivers;  // the end is marked for GDAL
@@ -56,7 +61,8 @@ const std::vector<DriversOfExtension>& drivers_of(unsigned kind) {
   static const std::vector<DriversOfExtension> kVectors{
       {".shp", {"ESRI Shapefile", nullptr}}, {".gpkg", {"GPKG", nullptr}},
       {".fgb", {"FlatGeobuf", nullptr}},     {".gml", {"GML", nullptr}},
-      {".kml", {"LIBKML", "KML", nullptr}},  {".gmt", {"OGR_GMT", nullptr}}};
+      {".kml", {"LIBKML", "KML", nullptr}},  {".gmt", {"OGR_GMT", nullptr}},
+      {".geojson", {"GeoJSON", nullptr}},    {".json", {"GeoJSON", nullptr}}};
   static const std::vector<DriversOfExtension> kRasters{
       {".tif", {"GTiff", nullptr}},   {".tiff", {"GTiff", nullptr}},
       {".nc", {"netCDF", nullptr}},   {".nc4", {"netCDF", nullptr}},
@@ -101,9 +107,13 @@ CPLHTTPResult* refuse_request(const char* /*address*/, CSLConstList /*options*/,
 
 }  // namespace
 
+bool is_gdal_there() {
+  return loaded_once().problem.empty();
+}
+
 const GdalFunctions& gdal_for(const std::string& file) {
   require_regular_file(file);
-  static const Loaded loaded = load();
+  const Loaded& loaded = loaded_once();
   if (!loaded.problem.empty())
     throw InputError({file}, "takes GDAL to be read, which cannot be loaded (" + loaded.problem + ")",
                      "install Debian's package libgdal32, or convert the file to GeoJSON or .asc");

@@ -61,6 +61,8 @@ struct GdalFunctions {
   }
 };
 
+[[nodiscard]] bool is_gdal_there();
+
 /// To read this file. Throws InputError that says how to get GDAL where it cannot be loaded.
 [[nodiscard]] const GdalFunctions& gdal_for(const std::string& file);
 

@@ -231,7 +231,15 @@ std::string vector_as_geojson(const std::string& path, const std::string& layers
   return VectorReader(path).read(layers).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+bool can_read_vectors() {
+  return is_gdal_there();
+}
+
 #else
+
+bool can_read_vectors() {
+  return false;
+}
 
 std::string vector_as_geojson(const std::string& path, const std::string& /*layers*/) {
   refuse_without_gdal(path);

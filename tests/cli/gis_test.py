@@ -260,6 +260,20 @@ class Vectors(Gis):
             self.tool("ogr2ogr", "-f", "GeoJSON", "-lco", "COORDINATE_PRECISION=6", "-t_srs", source, *where, "own.geojson", BAY)
             self.file("own.geojson", json.dumps({**json.loads((self.folder / "own.geojson").read_text()), "crs": named}))
             self.assertEqual(self.features("own.geojson")["projection"], degrees["projection"], code)
+
+    def test_geojson_names_a_system_that_gdal_knows(self):
+        """Other projections of Mercator's kind, and feet, mean the same in GeoJSON and in other files."""
+        where = ["-where", "OGR_GEOMETRY='POLYGON'"]
+        for code in (3832, 3994, 5641, 2284, 3035):
+            self.tool("ogr2ogr", "-overwrite", "-t_srs", f"EPSG:{code}", *where, "other.gpkg", BAY)
+            (self.folder / "own.geojson").unlink(missing_ok=True)
+            self.tool("ogr2ogr", "-f", "GeoJSON", "-lco", "COORDINATE_PRECISION=9", "-t_srs", f"EPSG:{code}", *where, "own.geojson", BAY)
+            named = {"type": "name", "properties": {"name": f"urn:ogc:def:crs:EPSG::{code}"}}
+            self.file("own.geojson", json.dumps({**json.loads((self.folder / "own.geojson").read_text()), "crs": named}))
+            expected = self.features("other.gpkg")
+            area = self.area("of.vtu")
+            self.assertEqual(self.features("own.geojson").get("projection"), expected.get("projection"), code)
+            self.assertAlmostEqual(self.area("of.vtu") / area, 1, delta=1e-6, msg=str(code))
             self.assertAlmostEqual(self.area("of.vtu") / area, 1, delta=1e-6)
 
     def area(self, mesh):

@@ -57,6 +57,8 @@ CASES = {
                 "at (2, 2)"),
     "two-holes": (polygons([box(0, 0, 20, 25), [[2, 12], [4, 23], [5, 23], [2, 12]],
                             [[2, 12], [6, 23], [7, 23], [2, 12]]]), 489, None),
+    "degenerate-rings": (polygons([SQUARE, [[2, 2], [2, 2], [2, 2]], [[4, 4], [6, 6], [4, 4]]], [[[1, 1], [9, 9], [1, 1]]]), 100,
+                         "feature 1 has a ring of fewer than three different corners, which covers nothing"),
 }
 
 
