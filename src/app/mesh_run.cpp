@@ -21,6 +21,7 @@
 #include "job/make.hpp"
 #include "job/mpi/mpi_team.hpp"
 #include "job/on_ranks.hpp"
+#include "job/same_on_ranks.hpp"
 #include "picture/plot.hpp"
 
 namespace driftmesh::app {
@@ -83,6 +84,7 @@ int mesh_on_ranks(const Told& told) {
   job::MpiTeam team(protocol::MpiSession::world(), job::words_of(job::kMesh));
   try {
     const std::string start = team.alone() ? "" : "mpirun -n " + std::to_string(team.ranks()) + " ";
+    job::require_same(team, job::settings_of(told.request));
     job::OnRanks ranks(team, balancer::make_policy);
     RunNotes notes(told, start, !team.leads());
     static_cast<void>(mesh_at(ranks, told, notes));

@@ -12,6 +12,7 @@
 #include "base/key_error.hpp"
 #include "geometry/midpoint.hpp"
 #include "job/failure.hpp"
+#include "job/keys.hpp"
 #include "job/value.hpp"
 
 namespace driftmesh::job {
@@ -118,6 +119,12 @@ Bytes own_presplit(const RunPlan& plan, Rank rank) {
 }
 
 }  // namespace
+
+std::vector<RankSetting> settings_of(const Request& request) {
+  std::vector<RankSetting> settings;
+  for (const Key& key : keys()) settings.push_back({KeyText::key(key.name), text_of(key.load(request))});
+  return settings;
+}
 
 void require_same(Team& team, const std::vector<RankSetting>& own) {
   if (team.alone()) return;

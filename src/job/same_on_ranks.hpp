@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "driftmesh/size_field.hpp"
+#include "job/request.hpp"
 #include "job/team.hpp"
 #include "runtime/run_plan.hpp"
 
@@ -14,6 +15,9 @@ struct RankSetting {
   KeyText name;
   std::string value;  ///< in words that differ if the values do
 };
+
+/// All settings of a request.
+[[nodiscard]] std::vector<RankSetting> settings_of(const Request& request);
 
 /// Unless all ranks have the same settings, throws an Error on all of them that names the first that differs, two of
 /// its values, and the ranks whose value is not that of rank 0. Collective; all ranks list the same names.

@@ -334,6 +334,19 @@ class DomainWarnings(Cli):
 
 
 class Errors(Cli):
+    def test_ranks_with_other_options(self):
+        self.succeed("generate", "pipe", "-o", "pipe.poly")
+        for option, others in (("--area", ["-a", "0.02"]), ("--output", ["-o", "other.vtu"]), ("INPUT", ["none.poly"])):
+            first = ["mesh", "pipe.poly", "-a", "0.01", "-o", "x.vtu"]
+            second = ["mesh", *(others if option == "INPUT" else ["pipe.poly"]),
+                      *(others if option == "--area" else ["-a", "0.01"]), *(others if option == "--output" else ["-o", "x.vtu"])]
+            done = subprocess.run(["mpiexec", "-n", "1", program.PATH, *first, ":", "-n", "1", program.PATH, *second], cwd=self.folder,
+                                  capture_output=True, text=True, timeout=MESHER_SECONDS, check=False, env=RANKS_ENVIRONMENT)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn(f"{option} differs between ranks: ", done.stderr)
+            self.assertEqual(done.stderr.count("driftmesh: "), 1, done.stderr)
+            self.assertEqual(self.files(), ["pipe.poly"])
+
     def test_help(self):
         for command in ([], ["mesh"], ["check"], ["generate"], ["generate", "bay"], ["plot"], ["convert"]):
             self.assertIn("Usage", self.succeed(*command, "--help"))

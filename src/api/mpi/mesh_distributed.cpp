@@ -15,11 +15,9 @@
 #include "driftmesh/error.hpp"
 #include "driftmesh/mpi/distributed.hpp"
 #include "job/failure.hpp"
-#include "job/keys.hpp"
 #include "job/mpi/mpi_team.hpp"
 #include "job/on_ranks.hpp"
 #include "job/same_on_ranks.hpp"
-#include "job/value.hpp"
 
 namespace driftmesh {
 namespace {
@@ -79,16 +77,9 @@ auto with_channel(job::Team& team, const Work& work) {
 
 /// The options as this rank has them. Of a callable, only whether there is one.
 std::vector<job::RankSetting> settings_of(const MeshOptions& options, const job::Request& request) {
-  std::vector<job::RankSetting> settings;
-  const auto add = [&](const std::string& key, const std::string& value) {
-    settings.push_back({KeyText::key(key), value});
-  };
-  job::Request unused;
-  visit_options(options, unused, [&](const char* key, const char*, const auto&, const auto&) {
-    add(key, job::text_of(job::find_key(key).key->load(request)));
-  });
-  add("sizing.size", options.size ? "a function" : "none");
-  add("balance.own", options.balance.own ? "a policy" : "none");
+  std::vector<job::RankSetting> settings = job::settings_of(request);
+  settings.push_back({KeyText::key("sizing.size"), options.size ? "a function" : "none"});
+  settings.push_back({KeyText::key("balance.own"), options.balance.own ? "a policy" : "none"});
   return settings;
 }
 
