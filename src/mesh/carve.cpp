@@ -129,7 +129,9 @@ std::vector<CarveReport::Meeting> label_regions(Triangulation& mesh, const std::
     throw Error("the polygons cover no area (" + std::to_string(pslg.polygons.size()) +
                 " polygons); correct rings that are lines or empty, and holes that take all of their polygons");
   if (before_holes) throw Error(describe_open_boundary(pslg));
-  throw Error("the hole points remove the whole domain: each of them must lie inside a closed ring of segments");
+  const std::string gap = describe_gap(pslg, find_open_boundary(pslg).open_ends);
+  throw Error("the hole points remove the whole domain: each of them must lie inside a closed ring of segments" +
+              (gap.empty() ? "" : ", but some chain of segments is open: " + gap));
 }
 
 /// Keeps the triangles that can be reached from an inner side, with that side's label; all others lie outside.

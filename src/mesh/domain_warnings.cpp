@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <optional>
+#include <set>
 
 #include "geometry/triangle_geometry.hpp"
 #include "pslg/describe.hpp"
@@ -25,7 +27,7 @@ class Warnings {
         dropped.size() == 1 ? "1 segment bounds" : std::to_string(dropped.size()) + " segments bound";
     std::string text = count + " no part of the domain and " + (dropped.size() == 1 ? "is" : "are") + " left out";
     if (const auto end = open_end_of(dropped))
-      text += ": the chain is open at " + name(*end);
+      text += ": the chain is open at " + name(*end) + gap_of(dropped);
     else
       text += ", the first at " + name(pslg_.segments[dropped[0]].a);
     all.push_back(text);
@@ -69,6 +71,14 @@ class Warnings {
       for (const std::int32_t v : {pslg_.segments[s].a, pslg_.segments[s].b})
         if (std::binary_search(open_ends_.begin(), open_ends_.end(), v)) return v;
     return std::nullopt;
+  }
+  [[nodiscard]] std::string gap_of(const std::vector<std::int32_t>& segments) const {
+    std::set<std::int32_t> ends;
+    for (const std::int32_t s : segments) ends.insert({pslg_.segments[s].a, pslg_.segments[s].b});
+    std::vector<std::int32_t> open;
+    std::ranges::set_intersection(ends, open_ends_, std::back_inserter(open));
+    const std::string gap = describe_gap(pslg_, open);
+    return gap.empty() ? "" : "; " + gap;
   }
 
   [[nodiscard]] std::string words_of(const CarveReport::Flaw& flaw) const {

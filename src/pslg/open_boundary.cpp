@@ -55,16 +55,21 @@ std::optional<Gap> find_gap(const Pslg& pslg, const std::vector<std::int32_t>& o
   return narrowest;
 }
 
+std::string describe_gap(const Pslg& pslg, const std::vector<std::int32_t>& open_ends) {
+  const std::optional<Gap> gap = find_gap(pslg, open_ends);
+  if (!gap) return "";
+  const std::string which =
+      open_ends.size() == 2 ? "its ends " : "the nearest of its " + std::to_string(open_ends.size()) + " free ends, ";
+  return which + coordinates(pslg.points[gap->a]) + " and " + coordinates(pslg.points[gap->b]) +
+         (open_ends.size() == 2 ? " are " : ", are ") + length_text(gap->width) +
+         " apart; close the gap, or have the input snapped by more than that";
+}
+
 std::string describe_open_boundary(const Pslg& pslg) {
   const std::string what = "the segments enclose no area: the outer boundary is open";
-  const std::vector<std::int32_t> ends = find_open_boundary(pslg).open_ends;
-  const std::optional<Gap> gap = find_gap(pslg, ends);
-  if (!gap) return what + " or missing (" + std::to_string(pslg.segments.size()) + " segments); close the boundary";
-  const std::string which =
-      ends.size() == 2 ? "its ends " : "the nearest of its " + std::to_string(ends.size()) + " free ends, ";
-  return what + ", and " + which + coordinates(pslg.points[gap->a]) + " and " + coordinates(pslg.points[gap->b]) +
-         (ends.size() == 2 ? " are " : ", are ") + length_text(gap->width) +
-         " apart; close the gap, or have the input snapped by more than that";
+  const std::string gap = describe_gap(pslg, find_open_boundary(pslg).open_ends);
+  if (!gap.empty()) return what + ", and " + gap;
+  return what + " or missing (" + std::to_string(pslg.segments.size()) + " segments); close the boundary";
 }
 
 }  // namespace driftmesh

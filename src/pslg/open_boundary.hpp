@@ -27,6 +27,10 @@ struct Gap {
 /// The nearest two of these open ends that no segment joins; empty if there are none.
 [[nodiscard]] std::optional<Gap> find_gap(const Pslg& pslg, const std::vector<std::int32_t>& open_ends);
 
+/// What of a chain of segments has these open ends: which two are nearest, how far they are apart, and what to do.
+/// Empty if there is no gap.
+[[nodiscard]] std::string describe_gap(const Pslg& pslg, const std::vector<std::int32_t>& open_ends);
+
 /// Why a planar graph encloses no area, and what to do: where its boundary is open, and how wide the gap is.
 [[nodiscard]] std::string describe_open_boundary(const Pslg& pslg);
 

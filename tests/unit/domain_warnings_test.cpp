@@ -35,8 +35,24 @@ TEST_CASE("a chain outside the boundary is left out with a warning") {
   CHECK(warnings_of(pslg).empty());
   add_chain(pslg, {{5, 0}, {6, 1}, {6, 2}}, false);
   REQUIRE(warnings_of(pslg).size() == 1);
+  CHECK(
+      warnings_of(pslg)[0] ==
+      "2 segments bound no part of the domain and are left out: the chain is open at vertex 5 (5, 0); its ends (5, 0) "
+      "and (6, 2) are 2.24 apart; close the gap, or have the input snapped by more than that");
+}
+
+TEST_CASE("an outline that is open beside a closed ring is named with its gap") {
+  Pslg pslg = square();
+  add_chain(pslg, {{-10, -10}, {10, -10}, {10, 10}, {-10, 10}, {-10, -9.5}}, false);
+  REQUIRE(warnings_of(pslg).size() == 1);
   CHECK(warnings_of(pslg)[0] ==
-        "2 segments bound no part of the domain and are left out: the chain is open at vertex 5 (5, 0)");
+        "4 segments bound no part of the domain and are left out: the chain is open at vertex 5 (-10, -10); its ends "
+        "(-10, -10) and (-10, -9.5) are 0.5 apart; close the gap, or have the input snapped by more than that");
+  pslg.holes = {{1, 1}};
+  CHECK_THROWS_WITH(static_cast<void>(warnings_of(pslg)),
+                    "the hole points remove the whole domain: each of them must lie inside a closed ring of segments, "
+                    "but some chain of segments is open: its ends (-10, -10) and (-10, -9.5) are 0.5 apart; close the "
+                    "gap, or have the input snapped by more than that");
 }
 
 TEST_CASE("a chain in a hole is left out with a warning") {
