@@ -21,7 +21,7 @@ struct Side {
 /// An edge of the boundary.
 struct BorderEdge {
   std::int32_t from = 0;
-  std::int32_t type = 0;
+  EdgeType type;
   std::uint32_t order = 0;  ///< the index into mesh.edges; behind all others if it is not there
 };
 using Ring = std::vector<BorderEdge>;
@@ -183,7 +183,7 @@ struct Placed {
 
 /// `count` edges of a ring from edge `begin` on, which are less than all.
 Placed chain(const Ring& ring, std::size_t begin, std::size_t count) {
-  Placed placed{ring[begin].order, {ring[begin].type, false, {}}};
+  Placed placed{ring[begin].order, {ring[begin].type.type, false, {}}};
   for (std::size_t i = begin; i < begin + count; ++i) {
     placed.order = std::min(placed.order, ring[i].order);
     placed.string.vertices.push_back(ring[i].from);
@@ -195,7 +195,7 @@ Placed chain(const Ring& ring, std::size_t begin, std::size_t count) {
 /// A ring whose edges are all of one type.
 void append_whole(const Mesh& mesh, Ring ring, std::vector<Placed>& strings) {
   std::rotate(ring.begin(), std::ranges::min_element(ring, {}, &BorderEdge::order), ring.end());
-  std::int32_t type = ring.front().type;
+  std::int32_t type = ring.front().type.type;
   if (type == kMainlandType && doubled_area(mesh, ring) < 0) type = kIslandType;
   if (!is_closed_type(type)) {
     const std::size_t half = ring.size() / 2;
@@ -212,7 +212,7 @@ void append_strings(const Mesh& mesh, Ring ring, std::vector<Placed>& strings) {
   if (std::ranges::adjacent_find(ring, std::not_equal_to(), &BorderEdge::type) == ring.end())
     return append_whole(mesh, std::move(ring), strings);
   for (BorderEdge& edge : ring)
-    if (is_closed_type(edge.type)) edge.type -= 1;
+    if (is_closed_type(edge.type.type)) edge.type.type -= 1;
   const auto change = std::ranges::adjacent_find(ring, std::not_equal_to(), &BorderEdge::type);
   if (change == ring.end()) return append_whole(mesh, std::move(ring), strings);
   std::rotate(ring.begin(), change + 1, ring.end());  // so that a string begins with it

@@ -8,8 +8,8 @@
 
 namespace driftmesh {
 
-/// Consecutive edges of the boundary that are of one type, with the domain on their left: counterclockwise around the
-/// domain, clockwise around its islands.
+/// Consecutive edges of the boundary that are of one type and one part, with the domain on their left: counterclockwise
+/// around the domain, clockwise around its islands.
 struct BoundaryString {
   std::int32_t type = 0;
   bool closed = false;                 ///< a whole ring: the first vertex follows the last one
@@ -29,8 +29,15 @@ struct Boundary {
   std::vector<std::int32_t> touched;  ///< vertices in which boundaries touch each other or themselves, ascending
 };
 
-/// The type of an edge of the boundary: from `from` to `to`, with the index into mesh.edges, or -1 if it is not there.
-using TypeOfEdge = std::function<std::int32_t(std::int32_t from, std::int32_t to, std::int32_t edge)>;
+/// What an edge of the boundary is of.
+struct EdgeType {
+  std::int32_t type = kMainlandType;
+  std::int32_t part = 0;  ///< boundaries of one type that follow each other are two if their parts differ
+  friend bool operator==(const EdgeType&, const EdgeType&) = default;
+};
+
+/// The type of the edge from `from` to `to`, with the index into mesh.edges, or -1 if it is not there.
+using TypeOfEdge = std::function<EdgeType(std::int32_t from, std::int32_t to, std::int32_t edge)>;
 
 /// The boundary of a mesh in strings, in the order of the first of their edges in mesh.edges. Each edge with a triangle
 /// on one side only is in exactly one string. The strings make up rings that pass no vertex twice: islands that touch

@@ -19,11 +19,18 @@ void for_each_weir_edge(const Mesh::Weir& weir, const Visit& visit) {
   visit(weir.points.back(), weir.across.back());
 }
 
-std::map<std::int32_t, std::int32_t> types_of_markers(const Names& names) {
-  std::map<std::int32_t, std::int32_t> types;
+/// Each marker is a part of its own.
+std::map<std::int32_t, EdgeType> types_of_markers(const Names& names) {
+  std::map<std::int32_t, EdgeType> types;
   for (const auto& [marker, name] : names.markers)
-    if (const auto type = type_named(name)) types[marker] = *type;
+    if (const auto type = type_named(name)) types[marker] = {*type, marker};
   return types;
+}
+
+/// Markers without a type are mainland, whichever they are.
+EdgeType type_by_marker(const Mesh& mesh, std::int32_t edge, const std::map<std::int32_t, EdgeType>& types) {
+  const auto known = types.find(edge < 0 ? 0 : mesh.edges[static_cast<std::size_t>(edge)].marker);
+  return known == types.end() ? EdgeType{} : known->second;
 }
 
 }  // namespace
@@ -51,7 +58,7 @@ std::string name_of_type(std::int32_t type) {
 }
 
 std::optional<std::int32_t> type_named(std::string_view name) {
-  if (name == kOpenName) return kOpenType;
+  if (name == kOpenName || name.starts_with(std::string(kOpenName) + ' ')) return kOpenType;
   if (!name.starts_with(kTypePrefix)) return std::nullopt;
   name.remove_prefix(kTypePrefix.size());
   std::int32_t type = 0;
@@ -62,9 +69,10 @@ std::optional<std::int32_t> type_named(std::string_view name) {
 
 EdgeTypes::EdgeTypes(const Mesh& mesh, std::span<const std::int32_t> open, bool with_weirs)
     : mesh_(mesh), by_marker_(types_of_markers(mesh.names)) {
-  for (auto& [marker, type] : by_marker_)
-    if ((type == kOpenType && !open.empty()) || weir_columns(type)) type = kMainlandType;
-  for (const std::int32_t marker : open) by_marker_[marker] = kOpenType;
+  std::erase_if(by_marker_, [&](const auto& known) {
+    return (known.second.type == kOpenType && !open.empty()) || weir_columns(known.second.type);
+  });
+  for (const std::int32_t marker : open) by_marker_[marker] = {kOpenType, 0};
   if (!with_weirs) return;
   for (const Mesh::Weir& weir : mesh.weirs)
     for_each_weir_edge(weir, [&](std::int32_t a, std::int32_t b) {
@@ -73,19 +81,17 @@ EdgeTypes::EdgeTypes(const Mesh& mesh, std::span<const std::int32_t> open, bool 
   std::ranges::sort(weirs_);
 }
 
-std::int32_t EdgeTypes::of(std::int32_t from, std::int32_t to, std::int32_t edge) const {
-  if (std::ranges::binary_search(weirs_, std::array{std::min(from, to), std::max(from, to)})) return kWeirType;
-  const auto known = by_marker_.find(edge < 0 ? 0 : mesh_.edges[static_cast<std::size_t>(edge)].marker);
-  return known == by_marker_.end() ? kMainlandType : known->second;
+EdgeType EdgeTypes::of(std::int32_t from, std::int32_t to, std::int32_t edge) const {
+  if (std::ranges::binary_search(weirs_, std::array{std::min(from, to), std::max(from, to)})) return {kWeirType, 0};
+  return type_by_marker(mesh_, edge, by_marker_);
 }
 
 std::map<std::int32_t, std::size_t> count_types(const Mesh& mesh) {
-  const std::map<std::int32_t, std::int32_t> by_marker = types_of_markers(mesh.names);
+  const std::map<std::int32_t, EdgeType> by_marker = types_of_markers(mesh.names);
   std::map<std::int32_t, std::size_t> counts;
   if (!by_marker.empty()) {
     const auto type_of = [&](std::int32_t, std::int32_t, std::int32_t edge) {
-      const auto known = by_marker.find(edge < 0 ? 0 : mesh.edges[static_cast<std::size_t>(edge)].marker);
-      return known == by_marker.end() ? kMainlandType : known->second;
+      return type_by_marker(mesh, edge, by_marker);
     };
     for (const BoundaryString& string : boundary_of(mesh, type_of).strings)
       if (string.type != kMainlandType && string.type != kIslandType) ++counts[string.type];

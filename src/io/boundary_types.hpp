@@ -16,8 +16,9 @@
 namespace driftmesh {
 
 // What ADCIRC and SCHISM call the type of a boundary is the name of a marker in a Mesh: "open", or "ibtype 52" with
-// ADCIRC's number (IBTYPE), behind which more words may follow. All files that have names keep them. The heights and
-// coefficients of weirs are in Mesh::weirs.
+// ADCIRC's number (IBTYPE), behind which more words may follow. Boundaries of one type that follow each other have
+// markers of their own: "open", "open 2". All files that have names keep them. The heights and coefficients of weirs
+// are in Mesh::weirs.
 
 inline constexpr std::int32_t kLargestType = 999;
 
@@ -42,11 +43,11 @@ class EdgeTypes {
 
   static constexpr std::int32_t kWeirType = -2;
 
-  [[nodiscard]] std::int32_t of(std::int32_t from, std::int32_t to, std::int32_t edge) const;
+  [[nodiscard]] EdgeType of(std::int32_t from, std::int32_t to, std::int32_t edge) const;
 
  private:
   const Mesh& mesh_;
-  std::map<std::int32_t, std::int32_t> by_marker_;
+  std::map<std::int32_t, EdgeType> by_marker_;
   std::vector<std::array<std::int32_t, 2>> weirs_;  // edges from low to high vertex, ascending
 };
 

@@ -20,6 +20,7 @@ inline constexpr std::int32_t kLandMarker = 1;
 inline constexpr std::int32_t kIslandMarker = 2;
 inline constexpr std::int32_t kOpenMarker = 3;
 inline constexpr std::int32_t kTypeMarkers = 100;
+inline constexpr std::int32_t kPartMarkers = 10'000;
 
 /// Boundaries have the types that the names of their markers say; without one, rings inside of the domain are islands
 /// (type 1), everything else is mainland (type 0). Of `options`, those about boundaries count. Strings are as

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -149,7 +150,7 @@ class Fort14Parser {
     for (std::int32_t k = 0; k < strings; ++k) {
       Fields header = next_line("all open boundaries are listed");
       const std::int32_t nodes = count(header, "the number of nodes of an open boundary");
-      add_string(read_nodes(nodes), marker_of(kOpenType));
+      add_string(read_nodes(nodes), kOpenType);
     }
   }
 
@@ -174,7 +175,7 @@ class Fort14Parser {
   void read_land(std::int32_t nodes, std::int32_t type) {
     std::vector<std::int32_t> string = read_nodes(nodes);
     if (is_closed_type(type) && string.size() > 2 && string.front() != string.back()) string.push_back(string.front());
-    add_string(string, marker_of(type));
+    add_string(string, type);
   }
 
   void read_weir(std::int32_t nodes, std::int32_t type, WeirColumns columns) {
@@ -190,8 +191,8 @@ class Fort14Parser {
         weir.values.push_back(line.real("a height or a coefficient of a weir"));
     }
     if (weir.points.empty()) return;
-    add_string(weir.points, marker_of(type));
-    add_string({weir.across.rbegin(), weir.across.rend()}, marker_of(type));
+    add_string(weir.points, type);
+    add_string({weir.across.rbegin(), weir.across.rend()}, type);
     if (!is_bare) mesh_.weirs.push_back(std::move(weir));
   }
 
@@ -204,19 +205,36 @@ class Fort14Parser {
     return string;
   }
 
-  void add_string(const std::vector<std::int32_t>& string, std::int32_t marker) {
+  void add_string(const std::vector<std::int32_t>& string, std::int32_t type) {
+    if (string.empty()) return;
+    const std::int32_t marker = marker_of(type, next_part(string, type));
     for (std::size_t i = 1; i < string.size(); ++i)
       if (const auto ends = std::minmax(string[i - 1], string[i]);
           ends.first != ends.second && listed_.emplace(ends.first, ends.second).second)
         mesh_.edges.push_back({string[i - 1], string[i], marker});
   }
 
+  /// 0, unless a string of the same type ends where this one does: then the least that no such string is. Of land,
+  /// nobody counts the strings.
+  std::int32_t next_part(const std::vector<std::int32_t>& string, std::int32_t type) {
+    if (type == kMainlandType || type == kIslandType) return 0;
+    std::set<std::int32_t> taken;
+    for (const std::int32_t end : {string.front(), string.back()})
+      if (const auto known = parts_at_.find({type, end}); known != parts_at_.end())
+        taken.merge(std::set(known->second));
+    std::int32_t part = 0;
+    while (taken.contains(part)) ++part;
+    for (const std::int32_t end : {string.front(), string.back()}) parts_at_[{type, end}].insert(part);
+    return part;
+  }
+
   /// Gives the marker its name.
-  std::int32_t marker_of(std::int32_t type) {
+  std::int32_t marker_of(std::int32_t type, std::int32_t part) {
     if (type == kMainlandType) return kLandMarker;
     if (type == kIslandType) return kIslandMarker;
-    const std::int32_t marker = type == kOpenType ? kOpenMarker : kTypeMarkers + type;
-    mesh_.names.markers[marker] = name_of_type(type);
+    const std::int32_t marker =
+        (type == kOpenType && part == 0 ? kOpenMarker : kTypeMarkers + type) + part * kPartMarkers;
+    mesh_.names.markers[marker] = name_of_type(type) + (part == 0 ? "" : " " + std::to_string(part + 1));
     return marker;
   }
 
@@ -224,7 +242,8 @@ class Fort14Parser {
   ByteCursor cursor_;
   std::size_t line_ = 0;
   Mesh mesh_;
-  std::set<std::pair<std::int32_t, std::int32_t>> listed_;  // edges: a weir may repeat one
+  std::map<std::pair<std::int32_t, std::int32_t>, std::set<std::int32_t>> parts_at_;  // of strings by type and end
+  std::set<std::pair<std::int32_t, std::int32_t>> listed_;                            // edges: a weir may repeat one
 };
 
 }  // namespace

@@ -227,7 +227,7 @@ TEST_CASE("islands that touch the shore, each other or themselves are rings of t
         mesh.triangles.push_back({a, b, c});
         mesh.triangles.push_back({a, c, d});
       }
-    const Boundary boundary = boundary_of(mesh, [](std::int32_t, std::int32_t, std::int32_t) { return kMainlandType; });
+    const Boundary boundary = boundary_of(mesh, [](std::int32_t, std::int32_t, std::int32_t) { return EdgeType{}; });
     std::vector<std::size_t> sizes;
     for (const BoundaryString& string : boundary.strings)
       if (string.closed) sizes.push_back(string.vertices.size());
@@ -256,6 +256,23 @@ TEST_CASE("a ring that is open all around is two strings, as SCHISM's manual has
   CHECK(strings[1].nodes == std::vector<std::int32_t>{2, 3, 0});
   write_mesh(mesh, path);
   CHECK(strings_in(file_bytes(path)).size() == 2);
+}
+
+TEST_CASE("boundaries of one type that follow each other stay apart") {
+  const TemporaryFolder folder;
+  const std::string nodes = "t\n2 4\n1 0 0 2\n2 1 0 2\n3 1 1 2\n4 0 1 2\n1 3 1 2 3\n2 3 1 3 4\n";
+  const std::pair<std::string, std::size_t> cases[] = {
+      {"2\n5\n2\n1\n2\n3\n2\n3\n4\n1\n2\n2 20\n4\n1\n", 3},
+      {"3\n6\n2\n1\n2\n2\n2\n3\n2\n3\n4\n1\n2\n2 0\n4\n1\n", 4},
+      {"1\n2\n2\n1\n2\n3\n6\n2 20\n2\n3\n2 20\n3\n4\n2 20\n4\n1\n", 4}};
+  for (const auto& [boundaries, count] : cases)
+    for (const char* file : {"grid.14", "grid.gr3", "grid.msh", "grid.vtu"}) {
+      CAPTURE(boundaries);
+      CAPTURE(file);
+      write_mesh(parse_fort14("grid.14", nodes + boundaries), folder.path() / file);
+      write_mesh(read_mesh(folder.path() / file), folder.path() / "again.14");
+      CHECK(strings_in(file_bytes(folder.path() / "again.14")).size() == count);
+    }
 }
 
 TEST_CASE("a mesh with a triangle that is turned is written") {
