@@ -69,6 +69,8 @@ class VectorReader {
       layers.push_back(gdal_.GDALDatasetGetLayerByName(data_.get(), name.c_str()));
       if (layers.back() == nullptr)
         throw InputError({file_}, "has no layer '" + name + "'", "its layers are " + list_of_layers());
+      if (std::ranges::count(layers, layers.back()) > 1)
+        throw Keyed<InputError>({file_}, "layer '" + name + "' is named twice by {input.layers}", "name it once");
     }
     if (!layers.empty()) return layers;
     const int count = gdal_.GDALDatasetGetLayerCount(data_.get());

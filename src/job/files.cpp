@@ -12,8 +12,8 @@ namespace driftmesh::job {
 
 std::string called(const std::string& key, EntryPoint entry_point) {
   const Key* const found = find_key(key).key;
+  if (found == nullptr) return "--" + key;  // an option of commands alone
   if (entry_point == kExperiment) return key;
-  if (found == nullptr) return "--" + key;
   if (found->option.empty()) return key;
   return key == "input.file" ? upper_case(found->option) : "--" + found->option;
 }
