@@ -38,8 +38,8 @@ struct CheckReport {
 };
 
 /// Checks a mesh, however it was made; shares no code with the mesher but the exact predicates. It must be a
-/// constrained Delaunay triangulation that meets the requirements of `options`: min_angle (20 degrees unless given
-/// otherwise, as for mesh()), max_area, region_areas and size. How to make a mesh is of no interest here, except for
+/// constrained Delaunay triangulation that meets the bounds of `options` on angles (20 degrees unless given otherwise,
+/// as for mesh()), areas and sizes. How to make a mesh, or how many triangles, is of no interest here, except for
 /// `threads`, by which the check is done. docs/guarantees.md says which exceptions are accepted.
 ///
 /// What is wrong with the mesh is reported, never thrown. Throws Error for options that are out of range.
