@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "base/read_file.hpp"
 #include "base/standard_streams.hpp"
@@ -52,7 +53,8 @@ InputFile to_input(const std::string& file, GeoFeatures features) {
 InputFile read_geojson(const std::string& path) {
   GeoFeatures features = parse_geojson(path, read_file(path, kBeginsJson));
   if (!features.knows_system() && !is_standard_stream(path) && can_read_vectors())
-    features = parse_geojson(path, vector_as_geojson(path, ""));
+    if (GeoFeatures known = parse_geojson(path, vector_as_geojson(path, "")); known.system != kInMeters)
+      features = std::move(known);
   return to_input(path, std::move(features));
 }
 

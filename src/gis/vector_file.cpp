@@ -70,7 +70,7 @@ class VectorReader {
       if (layers.back() == nullptr)
         throw InputError({file_}, "has no layer '" + name + "'", "its layers are " + list_of_layers());
       if (std::ranges::count(layers, layers.back()) > 1)
-        throw Keyed<InputError>({file_}, "layer '" + name + "' is named twice by {input.layers}", "name it once");
+        throw Keyed<InputError>({file_}, "layer '" + name + "' is named twice", "correct {input.layers}");
     }
     if (!layers.empty()) return layers;
     const int count = gdal_.GDALDatasetGetLayerCount(data_.get());

@@ -221,7 +221,7 @@ class Vectors(Gis):
         self.assertEqual(self.digest("polygons.gpkg", "--layers", "water,open", "--area", "5M"), original)
         self.refuse("mesh", "polygons.gpkg", says=["2 layers: water, open", "--layers"])
         self.refuse("mesh", "polygons.gpkg", "--layers", "watr", says=["'watr'", "water, open"])
-        self.refuse("mesh", "polygons.gpkg", "--layers", "water,water", says=["layer 'water' is named twice by --layers"])
+        self.refuse("mesh", "polygons.gpkg", "--layers", "water,water", says=["layer 'water' is named twice", "--layers"])
         self.tool("ogr2ogr", "-where", "OGR_GEOMETRY='POLYGON'", "water.shp", BAY)
         self.tool("ogr2ogr", "-f", "GeoJSON", "water.geojson", "water.shp")
         expected = self.features("water.geojson")
