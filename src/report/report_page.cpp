@@ -12,6 +12,7 @@
 #include "report/packed_text.hpp"
 
 extern "C" {
+// NOLINTNEXTLINE(readability-identifier-naming): assembly has these names
 extern const char driftmesh_report_page[], driftmesh_report_page_end[];
 }
 
