@@ -242,7 +242,7 @@ class Fort14Parser {
   ByteCursor cursor_;
   std::size_t line_ = 0;
   Mesh mesh_;
-  std::map<std::pair<std::int32_t, std::int32_t>, std::set<std::int32_t>> parts_at_;  // of strings by type and end
+  std::map<std::pair<std::int32_t, std::int32_t>, std::set<std::int32_t>> parts_at_;  // by type and end of a string
   std::set<std::pair<std::int32_t, std::int32_t>> listed_;                            // edges: a weir may repeat one
 };
 

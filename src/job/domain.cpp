@@ -43,7 +43,7 @@ void keep_original_points(RepairReport& repairs, const std::vector<std::int32_t>
 /// hole.
 void add_nested_holes(HoleRule rule, Pslg& pslg) {
   if (rule != HoleRule::kNested) return;
-  Pslg rings = with_seeds(pslg);  // of regions
+  Pslg rings = with_seeds(pslg);  // keeps the regions of polygons
   rings.segments = pslg.segments;
   rings.holes.clear();
   const std::vector<Point> holes = find_nested_rings(triangulate(rings)).alternating_holes;
