@@ -72,7 +72,7 @@ CheckReport check_against(const Mesh& mesh, const Pslg* input, const MeshOptions
                       .plain = request.bounds,
                       .given = input,
                       .moved = request.input.snap + request.input.simplify,
-                      .nested_holes = request.input.holes == HoleRule::kNested,
+                      .holes = request.input.holes,
                       .threads = threads_for(options)};
   if (options.size) {
     asked.size = &size;

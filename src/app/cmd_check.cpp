@@ -59,7 +59,7 @@ std::optional<InputFile> read_and_repair(CheckOptions& options, const job::Reque
     options.verify.given = &options.given;
   }
   options.verify.moved = asked.snap + asked.simplify;
-  options.verify.nested_holes = asked.holes == HoleRule::kNested;
+  options.verify.holes = asked.holes;
   const RepairReport repairs = job::clean_input(asked, options.input, input.pslg);
   if (!options.quiet) print(repairs.summary());
   return input;

@@ -88,7 +88,7 @@ class RingSearch {
   std::vector<std::int32_t> lowest_;          // the least that a way from what was found behind each face leads back to
   std::vector<std::size_t> next_;
   std::vector<Stay> way_;
-  std::vector<std::int32_t> links_;  // of rings that are not complete
+  std::vector<std::int32_t> links_;  // those whose rings are not complete
   std::vector<LinkRing> rings_;
   std::int32_t count_ = 0;
 };

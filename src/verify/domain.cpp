@@ -47,7 +47,7 @@ std::vector<std::int32_t> convex_hull(const std::vector<Point>& points) {
 
 }  // namespace
 
-Domain::Domain(const Pslg& input, Holes holes, std::span<const Point> places) {
+Domain::Domain(const Pslg& input, HoleRule holes, std::span<const Point> places) {
   std::vector<std::int32_t> number;
   take_points(input, number);
   if (conflict_) return;
@@ -147,7 +147,7 @@ void Domain::take_hull() {
   }
 }
 
-void Domain::classify(const Pslg& input, Holes holes, const Arrangement& arrangement) {
+void Domain::classify(const Pslg& input, HoleRule holes, const Arrangement& arrangement) {
   inside_.assign(arrangement.face_count(), 1);
   inside_[Arrangement::kUnbounded] = 0;
   region_of_face_.assign(inside_.size(), kNoRegion);
@@ -162,7 +162,7 @@ void Domain::classify(const Pslg& input, Holes holes, const Arrangement& arrange
     if (const std::int32_t face = arrangement.face_of_query(hole); face != Arrangement::kOnBoundary) inside_[face] = 0;
 
   find_regions(input, arrangement);
-  if (holes == Holes::kAlternating) {
+  if (holes == HoleRule::kNested) {
     const std::vector<char> odd = inside_of_alternating_rings(arrangement);
     for (std::int32_t face = 0; face < face_count(); ++face)
       if (odd[face] == 0 && region_of_face_[face] == kNoRegion) inside_[face] = 0;

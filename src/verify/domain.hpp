@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "driftmesh/options.hpp"
 #include "driftmesh/pslg.hpp"
 #include "verify/arrangement.hpp"
 
@@ -27,14 +28,8 @@ class Domain {
     std::int32_t right_face = 0;  ///< to the right on the way a -> b
   };
 
-  /// Which faces inside of the input's borders are not in the domain.
-  enum class Holes : std::uint8_t {
-    kPoints,       ///< those that hold a hole point
-    kAlternating,  ///< those, too, that an even number of rings encloses and no region names
-  };
-
   /// `places` are located in the domain and have no part in it.
-  explicit Domain(const Pslg& input, Holes holes = Holes::kPoints, std::span<const Point> places = {});
+  explicit Domain(const Pslg& input, HoleRule holes = HoleRule::kPoints, std::span<const Point> places = {});
 
   /// Why the input describes no domain (segments that cross, overlap or pass through points, polygons without
   /// segments), if so. If so, nothing below may be called.
@@ -78,7 +73,7 @@ class Domain {
   void take_polygons(const Pslg& input, const std::vector<std::int32_t>& number);
   [[nodiscard]] bool has_segment(std::int32_t a, std::int32_t b) const;
   void take_hull();
-  void classify(const Pslg& input, Holes holes, const Arrangement& arrangement);
+  void classify(const Pslg& input, HoleRule holes, const Arrangement& arrangement);
   void find_regions(const Pslg& input, const Arrangement& arrangement);
   void measure(const Arrangement& arrangement);
   void measure_faces();

@@ -97,11 +97,11 @@ bool check_polygons(const Pslg& input, const Domain& domain, const std::vector<s
       faces.push_back(face);
       known.push_back(*places[face]);
     }
-  Domain given(*rings, Domain::Holes::kPoints, known);
+  Domain given(*rings, HoleRule::kPoints, known);
   if (given.conflict()) {
     rings = cut_rings(std::move(*rings));
     if (!rings) return false;
-    given = Domain(*rings, Domain::Holes::kPoints, known);
+    given = Domain(*rings, HoleRule::kPoints, known);
     if (given.conflict()) return false;
   }
   PolygonsCheck check(domain, given, moved, findings);

@@ -65,7 +65,7 @@ class Verification {
 
   void find_domain() {
     if (input_ == nullptr) return;
-    domain_.emplace(*input_, options_.nested_holes ? Domain::Holes::kAlternating : Domain::Holes::kPoints);
+    domain_.emplace(*input_, options_.holes);
     conflict_ = domain_->conflict();
     if (conflict_) return domain_.reset();
     corners_.emplace(domain_->points());
@@ -217,7 +217,7 @@ class Verification {
   /// Seeds and holes would need the segments that repair leaves.
   void check_given(const DomainCheck& against) {
     if (options_.given == nullptr || input_->polygons.empty() || same_polygons(*options_.given, *input_)) return;
-    if (!options_.nested_holes && input_->holes.empty() && !has_seeds(*input_))
+    if (options_.holes == HoleRule::kPoints && input_->holes.empty() && !has_seeds(*input_))
       report_.polygons_judged =
           check_polygons(*options_.given, *domain_, against.find_places(), options_.moved, findings_);
   }

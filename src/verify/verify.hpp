@@ -6,6 +6,7 @@
 #include <span>
 
 #include "driftmesh/mesh.hpp"
+#include "driftmesh/options.hpp"
 #include "driftmesh/pslg.hpp"
 #include "driftmesh/size_field.hpp"
 #include "mesh/bounds.hpp"
@@ -27,9 +28,9 @@ struct VerifyOptions {
   /// By how much repair may have moved the borders of polygons in `given`, where it was asked to: lengths within which
   /// points were joined or borders simplified. Areas then only agree within twice that along all borders.
   double moved = 0;
-  bool nested_holes = false;   ///< whether rings within rings of the input are holes: see Domain::Holes
-  bool check_delaunay = true;  ///< false for meshes that only need to be conforming
-  std::size_t max_listed = 5;  ///< messages kept of each kind of flaw and of each cause of an exception
+  HoleRule holes = HoleRule::kPoints;  ///< which parts of the input are holes
+  bool check_delaunay = true;          ///< false for meshes that only need to be conforming
+  std::size_t max_listed = 5;          ///< messages kept of each kind of flaw and of each cause of an exception
   /// Pieces are spread over them, and most of the work on a mesh in one piece. With several, `size` is asked by several
   /// at once. The report does not depend on their number.
   std::size_t threads = 1;

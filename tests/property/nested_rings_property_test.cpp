@@ -176,7 +176,7 @@ TEST_CASE("the verifier's holes between rings are the mesher's, whatever touches
     Pslg nested = input;
     const std::vector<Point> found = find_nested_rings(triangulate(rings)).alternating_holes;
     nested.holes.insert(nested.holes.end(), found.begin(), found.end());
-    const Domain judged(input, Domain::Holes::kAlternating);
+    const Domain judged(input, HoleRule::kNested);
     REQUIRE(!judged.conflict());
     alternating += !found.empty();
     touching += found.size() > 1;

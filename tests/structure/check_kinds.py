@@ -11,6 +11,8 @@ import pathlib
 import re
 import sys
 
+from check_stages import without_comments
+
 # Where meshes are made.
 FOLDERS = ["src/mesh", "src/decompose", "src/mapping", "src/runtime", "src/cluster", "src/distributed", "migration"]
 
@@ -18,10 +20,6 @@ KINDS = {"src/mesh/bounds.hpp", "src/mesh/size_bound.hpp", "src/mesh/size_bound.
 HANDS_ON = {"src/runtime/plan_bytes.cpp": "region_max_area"}  # to other ranks
 
 QUESTIONS = "edge_length|falls_below|least_near|least_between|visit_marks"
-
-
-def without_comments(text):
-    return re.sub(r"//[^\n]*|/\*.*?\*/", " ", text, flags=re.DOTALL)
 
 
 def members_of(struct, text):

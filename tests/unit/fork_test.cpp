@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -12,10 +11,9 @@
 #include <vector>
 
 #include "decompose/bridges.hpp"
-#include "geometry/segment_geometry.hpp"
-#include "geometry/triangle_geometry.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
+#include "support/separator_room_oracle.hpp"
 
 // Three separators that meet inside a piece.
 
@@ -46,18 +44,6 @@ Outline outline_of(const std::vector<Point>& corners, double spacing, double ang
 double angle_between(const Point& center, const Point& a, const Point& b) {
   const double ax = a.x - center.x, ay = a.y - center.y, bx = b.x - center.x, by = b.y - center.y;
   return std::atan2(std::fabs(ax * by - ay * bx), ax * bx + ay * by) / kDegree;
-}
-
-/// Whether points along a separator from a to b are a hundredth of its length from a wall, or 0.346 of their distance
-/// to the nearer end.
-bool keeps_away(const Point& a, const Point& b, const Point& u, const Point& v) {
-  const double length = std::sqrt(squared_distance(a, b));
-  for (int k = 1; k < 50; ++k) {
-    const double t = k / 50.0, keep = length * std::min(0.01, 0.346 * std::min(t, 1 - t));
-    const Point p{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
-    if (squared_distance_to_segment(p, u, v) < 0.999 * keep * keep) return false;
-  }
-  return true;
 }
 
 }  // namespace
@@ -117,7 +103,7 @@ TEST_CASE("what a fork does not meet keeps away from it") {
       for (std::size_t k = 0; k < outline.loop.size(); ++k) {
         const Point &u = outline.loop[k].at, &v = outline.loop[(k + 1) % outline.loop.size()].at;
         if (u == end.at || v == end.at || (!end.corner && outline.loop[k].side == end.side)) continue;
-        CHECK(keeps_away(fork->center, end.at, u, v));
+        CHECK(!testing::comes_near(fork->center, end.at, u, v));
       }
   }
   CHECK(forks > 30);

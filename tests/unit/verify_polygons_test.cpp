@@ -59,7 +59,7 @@ Domain domain_of(const Pslg& input, const std::vector<Point>& places = {}) {
   REQUIRE(rings);
   if (Domain(*rings).conflict()) rings = cut_rings(*rings);
   REQUIRE(rings);
-  Domain domain(*rings, Domain::Holes::kPoints, places);
+  Domain domain(*rings, HoleRule::kPoints, places);
   INFO(domain.conflict().value_or(""));
   REQUIRE(!domain.conflict());
   return domain;
@@ -194,12 +194,13 @@ TEST_CASE("a mesh is judged by the verifier's own holes between nested rings") {
   input.regions.clear();
   Mesh mesh = halves();
   mesh.regions.clear();
-  CHECK(verify(mesh, input, {.nested_holes = true}).accepted());  // the halves share a segment, and so are one ring
+  CHECK(
+      verify(mesh, input, {.holes = HoleRule::kNested}).accepted());  // the halves share a segment, and so are one ring
   input.points.insert(input.points.end(), {{1.25, 0.25}, {1.75, 0.25}, {1.75, 0.75}});
   for (const std::int32_t a : {6, 7, 8}) input.segments.push_back({a, a < 8 ? a + 1 : 6, 0});
   CHECK(Domain(input).area() == 4);
-  CHECK(Domain(input, Domain::Holes::kAlternating).area() == 3.875);
-  const VerifyReport report = verify(mesh, input, {.nested_holes = true});
+  CHECK(Domain(input, HoleRule::kNested).area() == 3.875);
+  const VerifyReport report = verify(mesh, input, {.holes = HoleRule::kNested});
   CHECK(report.input_area == 3.875);
   CHECK(!report.accepted());
 }
