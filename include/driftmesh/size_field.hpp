@@ -33,11 +33,8 @@ class SizeField {
   }
   /// A length that no value falls below, so that falls_below need not be asked; 0: unknown.
   [[nodiscard]] virtual double least() const { return 0; }
-  /// The same for the values in a triangle, where this takes less time than values at points: most triangles are so
-  /// small that they need not be looked at more closely.
-  [[nodiscard]] virtual double least_near(const std::array<Point, 3>& /*triangle*/) const { return least(); }
-  /// The same where the least of the values at the corners is known, for a field that knows how fast it changes. 0:
-  /// unknown.
+  /// A length that nothing which counts in a triangle falls below, where the least of the values at the corners is
+  /// known: for a field that knows how fast it changes. Takes less time than falls_below. 0: unknown.
   [[nodiscard]] virtual double least_between(const std::array<Point, 3>& /*triangle*/, double /*at_corners*/) const {
     return 0;
   }

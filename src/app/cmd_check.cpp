@@ -28,7 +28,6 @@
 #include "job/memory.hpp"
 #include "job/rasters.hpp"
 #include "mesh/digest.hpp"
-#include "sizing/field_of_threads.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
 
@@ -116,14 +115,6 @@ class CheckedMesh {
   std::uint64_t digest_ = 0;
 };
 
-/// Null if no sizes are asked for.
-std::unique_ptr<const SizeField> size_for_threads(const SizingOptions& sizes, std::size_t threads) {
-  std::vector<std::unique_ptr<const SizeField>> fields;
-  for (std::size_t t = 0; t < threads; ++t) fields.push_back(make_size_field(sizes));
-  if (threads == 1 || fields.front() == nullptr) return std::move(fields.front());
-  return std::make_unique<FieldOfThreads>(std::move(fields));
-}
-
 VerifyReport read_and_verify(CheckOptions& options, const job::Request& request) {
   CheckedMesh mesh(options.mesh, options.reading);
   const std::optional<InputFile> file = read_and_repair(options, request.input);
@@ -134,14 +125,16 @@ VerifyReport read_and_verify(CheckOptions& options, const job::Request& request)
                                                        : sized          ? mesh.box()
                                                                         : Box{});
   sizes.input = input;
+  sizes.exact = true;
   job::Rasters rasters = job::rasters_of(request, file ? file->projection : "");
   open_all(rasters, sizes.domain, {});
   sizes.rasters = std::move(rasters.open);
   options.verify.threads = options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
-  options.size = size_for_threads(sizes, options.verify.threads);
+  options.size = make_size_field(sizes);
   options.verify.size = options.size.get();
   // Lengths whose growth is limited cannot fall much between the points that are looked up anyway.
   if (!request.sizing.expression.empty() && request.sizing.gradation == 0) options.verify.size_spacing = sizes.spacing;
+  options.verify.size_is_compiled = !request.sizing.expression.empty();
   VerifyReport report = mesh.verify(input, options.verify);
   if (!options.quiet) print(fmt::format("digest         {:016x}\n", mesh.digest()));
   return report;

@@ -28,10 +28,10 @@ double work_in(const Triangulation& mesh, TriangleId t, const SizeBounds& sizes)
 }
 
 /// By a coarse mesh, graded as the fine one will be.
-WorkSamples sample_sized(const Triangulation& mesh, double min_angle, const SizeBounds& sizes, double count) {
+WorkSamples sample_sized(const Triangulation& mesh, double min_angle, const SizeBounds& sizes, double forecast,
+                         double count) {
   Triangulation coarse = mesh;
-  const double final_size = BoundForecast(mesh, sizes).total();
-  const double factor = std::max(1.0, final_size / count);
+  const double factor = std::max(1.0, forecast / count);
   Refiner refiner(coarse, min_angle, sizes.coarser(factor));
   refiner.limit_triangles(static_cast<std::int64_t>(20 * count + 10 * static_cast<double>(mesh.live_triangles())));
   refiner.refine();
@@ -77,7 +77,7 @@ void for_each_crossing(std::span<const WorkSample> samples, const Point& a, cons
 
 WorkSamples sample_work(const Triangulation& mesh, const QualityBounds& bounds, double forecast, double count) {
   const SizeBounds sizes = bounds;
-  WorkSamples samples = sizes.by_place() ? sample_sized(mesh, bounds.min_angle, sizes, count)
+  WorkSamples samples = sizes.by_place() ? sample_sized(mesh, bounds.min_angle, sizes, forecast, count)
                                          : sample_detailed(mesh, bounds, forecast, count);
   std::sort(samples.begin(), samples.end(), [](const WorkSample& p, const WorkSample& q) {
     return p.at.y != q.at.y ? p.at.y < q.at.y : p.at.x < q.at.x;

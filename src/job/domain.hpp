@@ -31,7 +31,7 @@ struct Domain {
   RepairReport repairs;
   SimplifyReport simplified;                   ///< without its points
   Rasters rasters;                             ///< open
-  std::unique_ptr<const SizeField> size;       ///< null: none is asked for
+  std::shared_ptr<const SizeField> size;       ///< null: none is asked for
   const BackgroundMesh* background = nullptr;  ///< the one that the size field uses
 };
 

@@ -24,10 +24,10 @@ std::int32_t Here::pieces(const Decomposition& decomposition) const {
   return PieceSeries::count(decomposition);
 }
 
-std::unique_ptr<Refined> Here::refine(Order&& order, const Limits& limits, const SizeField* size, Watch& watch) {
+std::unique_ptr<Refined> Here::refine(Order&& order, const Limits& limits, const SizeField*, Watch& watch) {
   if (order.whole) return refine_in_one_piece(std::move(order), limits, threads_, watch);
   if (order.use.by == kMesh) reuse_memory(order.limits);
-  auto run = std::make_unique<ThreadRun>(std::move(order), limits, threads_, size, watch);
+  auto run = std::make_unique<ThreadRun>(std::move(order), limits, threads_, watch);
   run->refine();
   return run;
 }

@@ -87,7 +87,7 @@ Order in_subdomains(const Asked& asked, const Place& place, Domain&& domain, con
   watch.pieces(place.pieces(prepared.plan.decomposition));
   add_prepared(record, prepared);
   prepared.plan.work.sleep = use.sleeps;
-  prepared.plan.bounds.size = nullptr;  // each place makes its own
+  prepared.plan.bounds.size = nullptr;  // see Order::size
   domain.pslg.holes = triangulated.holes;
   return {.plan = std::move(prepared.plan),
           .pslg = std::move(domain.pslg),
@@ -96,7 +96,8 @@ Order in_subdomains(const Asked& asked, const Place& place, Domain&& domain, con
           .shares = speeds,
           .use = use,
           .scratch = request.run.scratch,
-          .rasters = std::move(domain.rasters)};
+          .rasters = std::move(domain.rasters),
+          .size = std::move(domain.size)};
 }
 
 /// The number of ranks on which a number of triangles for each rank depends.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -22,8 +23,8 @@ struct Whole {
   Triangulated triangulated;  ///< refers to the domain's size field
 };
 
-/// What is to be refined, and how: what rank 0 sends to all ranks. It refers to nothing outside: each rank, and each
-/// thread, makes or is given a size field of its own.
+/// What is to be refined, and how: what rank 0 sends to all ranks. It refers to nothing outside: the others
+/// make or are given a size field of their own.
 struct Order {
   RunPlan plan;
   Pslg pslg;  ///< repaired
@@ -33,7 +34,8 @@ struct Order {
   Use use;                        ///< what the mesh is for
   std::string scratch{};          ///< folder where subdomains sleep; empty: in memory
   Rasters rasters{};              ///< open; others than rank 0 open them themselves
-  std::optional<Whole> whole{};   ///< in place of plan and input, for one piece, which stays where it is
+  std::shared_ptr<const SizeField> size{};  ///< what the domain was cut for; for this process alone
+  std::optional<Whole> whole{};             ///< in place of plan and input, for one piece, which stays where it is
 };
 
 /// Shares the order that rank 0 makes with all ranks. Collective; only rank 0 calls `make`. An exception from it is

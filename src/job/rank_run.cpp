@@ -16,27 +16,13 @@
 #include "protocol/rank_step.hpp"
 #include "runtime/plan_run.hpp"
 #include "runtime/threads/thread_crew.hpp"
-#include "sizing/field_of_threads.hpp"
 
 namespace driftmesh::job {
-namespace {
-
-/// The size field that the order describes, or the given one, for all threads of a rank.
-std::unique_ptr<const SizeField> size_for_threads(const Order& order, const SizeField* given) {
-  const std::int32_t threads = order.plan.work.threads;
-  std::vector<std::unique_ptr<const SizeField>> fields;
-  for (std::int32_t t = 0; t < threads; ++t)
-    fields.push_back(size_of(order.sizing, order.rasters.open, given, order.pslg).field);
-  if (threads == 1 || fields.front() == nullptr) return std::move(fields.front());
-  return std::make_unique<FieldOfThreads>(std::move(fields));
-}
-
-}  // namespace
-
 RankRun::RankRun(Team& team, Order order, const Limits& limits, const SizeField* size, Watch& watch)
     : team_(team), order_(std::move(order)), watch_(watch), limits_(limits), book_(order_.plan.decomposition) {
   agree(team_, [&] {
-    size_ = size_for_threads(order_, size);
+    size_ = std::move(order_.size);
+    if (size_ == nullptr) size_ = size_of(order_.sizing, order_.rasters.open, size, order_.pslg).field;
     order_.plan.bounds.size = size_.get();
     order_.plan.max_triangles = limits_.triangles;
     scratch_ = open_scratch(order_.scratch, forecast_of(order_.plan, team_.rank()) * team_.ranks_on_machine());

@@ -65,7 +65,7 @@ class RankRun {
 
   Team& team_;
   Order order_;
-  std::unique_ptr<const SizeField> size_;  // made here
+  std::shared_ptr<const SizeField> size_;
   Watch& watch_;
   Limits limits_;
   std::unique_ptr<ScratchFile> scratch_;  // if subdomains sleep on disk

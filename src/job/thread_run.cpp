@@ -20,12 +20,9 @@
 
 namespace driftmesh::job {
 
-ThreadRun::ThreadRun(Order order, const Limits& limits, std::int32_t threads, const SizeField* size, Watch& watch)
+ThreadRun::ThreadRun(Order order, const Limits& limits, std::int32_t threads, Watch& watch)
     : order_(std::move(order)), watch_(watch), limits_(limits), book_(order_.plan.decomposition) {
-  for (std::int32_t t = 0; t < threads; ++t) {
-    made_.push_back(size_of(order_.sizing, order_.rasters.open, size, order_.pslg).field);
-    sizes_.push_back(made_.back().get());
-  }
+  sizes_.assign(to_index(threads), order_.size.get());
   order_.plan.bounds.size = sizes_.front();
   scratch_ = open_scratch(order_.scratch, forecast_of(order_.plan));
   order_.plan.scratch = scratch_.get();
@@ -41,7 +38,7 @@ void ThreadRun::release() {
   scratch_.reset();
   order_.plan.scratch = nullptr;
   order_.plan.bounds.size = nullptr;
-  made_.clear();
+  order_.size.reset();
 }
 
 void ThreadRun::refine() {

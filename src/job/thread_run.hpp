@@ -21,9 +21,8 @@ namespace driftmesh::job {
 /// number of threads.
 class ThreadRun final : public Refined {
  public:
-  /// `order`: its plan maps the subdomains to `threads` ranks. `size`: replaces the size field that the order
-  /// describes, unless null; not owned, and shared by all threads. `watch` outlives the object.
-  ThreadRun(Order order, const Limits& limits, std::int32_t threads, const SizeField* size, Watch& watch);
+  /// `order`: made by this process; its plan maps the subdomains to `threads` ranks. `watch` outlives the object.
+  ThreadRun(Order order, const Limits& limits, std::int32_t threads, Watch& watch);
   ~ThreadRun() override;
 
   /// Throws what the work on a subdomain or the watch throws, and LimitError at a limit.
@@ -47,8 +46,7 @@ class ThreadRun final : public Refined {
   void write_pieces(const std::string& path, bool ghost_layer) const;
 
   Order order_;
-  std::vector<std::unique_ptr<const SizeField>> made_;  // here
-  std::vector<const SizeField*> sizes_;                 // one for each thread
+  std::vector<const SizeField*> sizes_;  // that of the order for each thread
   Watch& watch_;
   Limits limits_;
   std::unique_ptr<ScratchFile> scratch_;  // if subdomains sleep on disk

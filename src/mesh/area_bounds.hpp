@@ -39,7 +39,7 @@ class AreaBounds {
   [[nodiscard]] bool above_size(const CornerPoints& corners, double twice_area, AtCorners&& at_corners,
                                 bool between) const {
     const auto above = [&](double h) { return twice_area > twice_area_of_edge(h); };
-    if (twice_area <= twice_area_of_least_ || !above(sizes_.least_near(corners))) return false;
+    if (twice_area <= twice_area_of_least_) return false;
     const double least = at_corners();
     if (above(least)) return true;
     if (!above(sizes_.least_between(corners, least))) return false;

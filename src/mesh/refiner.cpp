@@ -61,7 +61,7 @@ bool Refiner::looks_between() const {
 void Refiner::look_between() {
   if (!areas_.by_place()) return;
   for (const TriangleId t : ids_of(mesh_.triangles))
-    if (mesh_.triangles[t].alive() && areas_.above_size_between(corners(t), twice_area(t))) state_.sweep.visit_again(t);
+    if (mesh_.triangles[t].alive() && is_large_for_size(t, twice_area(t))) state_.sweep.visit_again(t);
 }
 
 // ---- The order of work ----

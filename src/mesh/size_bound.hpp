@@ -65,9 +65,6 @@ class SizeBounds {
   [[nodiscard]] double least_length() const {
     return stretch_ * least_of([](const SizeField& f) { return f.least(); });
   }
-  [[nodiscard]] double least_near(const CornerPoints& corners) const {
-    return stretch_ * least_of([&](const SizeField& f) { return f.least_near(corners); });
-  }
   [[nodiscard]] double least_between(const CornerPoints& corners, double at_corners) const {
     return stretch_ * least_of([&](const SizeField& f) { return f.least_between(corners, at_corners / stretch_); });
   }

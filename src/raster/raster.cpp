@@ -89,6 +89,31 @@ Extent Raster::exact_over(const std::array<double, 4>& steps) const {
   return {std::max(found.low - rounding, largest_.low), std::min(found.high + rounding, largest_.high)};
 }
 
+/// Within four points of the grid, slopes in one direction are linear in the other.
+Raster::Slopes Raster::slopes_over(const Box& box) const {
+  constexpr double kMost = 8;  // spacings
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  const std::array<double, 4> steps{column_at(box.low.x), row_at(box.low.y), column_at(box.high.x), row_at(box.high.y)};
+  if (!(steps[2] - steps[0] <= kMost && steps[3] - steps[1] <= kMost)) return {{-kFar, kFar}, {-kFar, kFar}};
+  const auto i0 = static_cast<std::int64_t>(steps[0]), j0 = static_cast<std::int64_t>(steps[1]);
+  const auto i1 = std::min(static_cast<std::int64_t>(steps[2]) + 1, frame().columns - 1);
+  const auto j1 = std::min(static_cast<std::int64_t>(steps[3]) + 1, frame().rows - 1);
+  Extent rises{0, 0}, climbs{0, 0};  // outside of the grid, values do not change
+  const bool inside = box.low.x >= frame().first.x && box.low.y >= frame().first.y && i1 - i0 >= 1 && j1 - j0 >= 1 &&
+                      steps[2] < static_cast<double>(frame().columns - 1) &&
+                      steps[3] < static_cast<double>(frame().rows - 1);
+  if (inside) rises = climbs = {kFar, -kFar};
+  const auto extend = [](Extent& e, double by) { e = {std::min(e.low, by), std::max(e.high, by)}; };
+  for (std::int64_t j = j0; j <= j1; ++j)
+    for (std::int64_t i = i0; i <= i1; ++i) {
+      const double here = grid_.at(i, j);
+      if (i < i1) extend(rises, grid_.at(i + 1, j) - here);
+      if (j < j1) extend(climbs, grid_.at(i, j + 1) - here);
+    }
+  const auto scaled = [](const Extent& e, double spacing) { return Extent{e.low / spacing, e.high / spacing}; };
+  return {scaled(rises, frame().dx), scaled(climbs, frame().dy)};
+}
+
 std::shared_ptr<const Raster> Raster::slope() const {
   std::call_once(has_slope_, [this] { slope_ = std::make_shared<const Raster>(slopes_of(grid_)); });
   return slope_;

@@ -24,6 +24,14 @@ class Raster {
   /// few points of the grid, and otherwise the least and greatest values of blocks of the grid.
   [[nodiscard]] Extent over(const Box& box) const;
 
+  /// Slopes along lines parallel to the axes.
+  struct Slopes {
+    Extent in_x, in_y;
+  };
+  /// Hold all slopes of at() between points of a box, exactly if it extends over few points of the grid; infinite for
+  /// larger boxes.
+  [[nodiscard]] Slopes slopes_over(const Box& box) const;
+
   /// The slope of the values: the length of the gradient, per unit of length of the coordinates. At points of the grid
   /// by differences of their neighbors' values (one-sided at its rim), bilinear in between. Is made when it is first
   /// asked for.

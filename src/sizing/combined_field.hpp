@@ -39,15 +39,10 @@ class SmallestField final : public SizeField {
     for (const auto& field : fields_) length = std::min(length, field->least());
     return std::max(length, shortest_);
   }
-  [[nodiscard]] double least_near(const std::array<Point, 3>& triangle) const override {
-    double length = std::numeric_limits<double>::infinity();
-    for (const auto& field : fields_) length = std::min(length, field->least_near(triangle));
-    return std::max(length, shortest_);
-  }
   [[nodiscard]] double least_between(const std::array<Point, 3>& triangle, double at_corners) const override {
     double length = std::numeric_limits<double>::infinity();
     for (const auto& field : fields_)
-      length = std::min(length, std::max(field->least_between(triangle, at_corners), field->least_near(triangle)));
+      length = std::min(length, std::max(field->least_between(triangle, at_corners), field->least()));
     return std::max(length, shortest_);
   }
   [[nodiscard]] bool falls_below(const std::array<Point, 3>& triangle, double length) const override {

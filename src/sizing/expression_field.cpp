@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "driftmesh/error.hpp"
+#include "sizing/expression.hpp"
 
 namespace driftmesh {
 namespace {
@@ -14,43 +16,54 @@ std::string printed(double value) {
   return text;
 }
 
+/// A function between two bounds. NaN stays NaN.
+class Clamped final : public PlaneFunction {
+ public:
+  Clamped(std::shared_ptr<const PlaneFunction> function, double least, double most)
+      : function_(std::move(function)), least_(least), most_(most) {}
+  [[nodiscard]] double at(const Point& p) const override { return std::min(std::max(function_->at(p), least_), most_); }
+  [[nodiscard]] Variation over(const Box& box) const override {
+    Variation found = function_->over(box);
+    const Interval before = found.value;
+    found.value = intervals::smaller(intervals::larger(before, {least_, least_}), {most_, most_});
+    const bool is_constant = !before.undefined && found.value.is_point();
+    const bool changes = before.low < least_ || before.high > most_;
+    for (Interval* slope : {&found.in_x, &found.in_y, &found.in_directions})
+      if (is_constant)
+        *slope = {0, 0};
+      else if (changes)
+        *slope = intervals::hull(*slope, {0, 0});
+    return found;
+  }
+  [[nodiscard]] std::shared_ptr<const PlaneFunction> within(const Box& box) const override {
+    auto narrowed = function_->within(box);
+    return narrowed == nullptr ? nullptr : std::make_shared<const Clamped>(std::move(narrowed), least_, most_);
+  }
+
+ private:
+  std::shared_ptr<const PlaneFunction> function_;
+  double least_, most_;
+};
+
 }  // namespace
 
-ExpressionField::ExpressionField(const std::string& expression, double shortest, double spacing, const Pslg* input,
+ExpressionField::ExpressionField(const std::string& expression, double shortest, double longest, const Pslg* input,
                                  const NamedRasters& rasters)
-    : text_(expression),
-      expression_(expression, input, rasters),
-      shortest_(shortest),
-      search_([own = expression_, shortest](const Box& box) { return std::max(own.over(box).low, shortest); },
-              spacing) {}
-
-Interval ExpressionField::range(const Box& box) const {
-  const Interval range = expression_.over(box);
-  return {std::max(range.low, shortest_), std::max(range.high, shortest_)};
+    : text_(expression), function_(std::make_shared<const Expression>(expression, input, rasters)) {
+  if (shortest > 0 || longest < std::numeric_limits<double>::infinity())
+    function_ = std::make_shared<const Clamped>(function_, shortest > 0 ? shortest : intervals::kAll.low, longest);
 }
 
 double ExpressionField::least() const {
-  return std::max(search_.least(), 0.0);
-}
-
-double ExpressionField::least_near(const std::array<Point, 3>& triangle) const {
-  return std::max(search_.least_near(triangle), 0.0);
-}
-
-bool ExpressionField::falls_below(const std::array<Point, 3>& triangle, double length) const {
-  return search_.is_below(*this, triangle, length);
-}
-
-double ExpressionField::value(const Point& p) const {
-  return std::max(expression_.at(p), shortest_);  // NaN stays NaN
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  return std::max(function_->over({{-kFar, -kFar}, {kFar, kFar}}).value.low, 0.0);
 }
 
 double ExpressionField::edge_length(const Point& p) const {
-  const double length = value(p);
+  const double length = function_->at(p);
   if (length > 0) return length;
   throw InputError(
-      place_of_expression(text_),
-      "is " + printed(expression_.at(p)) + " at x = " + printed(p.x) + ", y = " + printed(p.y),
+      place_of_expression(text_), "is " + printed(length) + " at x = " + printed(p.x) + ", y = " + printed(p.y),
       "it must be positive everywhere in the domain: use max(..., smallest length), or set a shortest edge");
 }
 

@@ -83,14 +83,14 @@ class Parser {
   Parser(const std::string& text, const Pslg* input, const NamedRasters& rasters)
       : text_(text), input_(input), rasters_(rasters) {}
 
-  std::vector<ExpressionStep> parse() {
+  ParsedExpression parse() {
     if (text_.size() > kLongestExpression)
       fail({}, "it is " + std::to_string(text_.size()) + " characters long",
            "at most " + std::to_string(kLongestExpression) + " are read: give a background mesh or a raster instead");
     advance();
     read_choice();
     if (token_.kind != Token::kEnd) fail_here("an operator");
-    return std::move(steps_);
+    return {std::move(steps_), std::move(functions_)};
   }
 
  private:
@@ -205,11 +205,11 @@ class Parser {
     else if (name.text == "x" || name.text == "y")
       emit({.leaf = name.text == "x" ? Leaf::kX : Leaf::kY});
     else if (name.text == kDistance)
-      emit({.leaf = Leaf::kFunction, .function = read_distance(name)});
+      emit_function(read_distance(name));
     else if (name.text == kSlope)
-      emit({.leaf = Leaf::kFunction, .function = read_slope(name)});
+      emit_function(read_slope(name));
     else if (raster != rasters_.end())
-      emit({.leaf = Leaf::kFunction, .function = values_of(raster->raster)});
+      emit_function(values_of(raster->raster));
     else
       fail_unknown(name);
   }
@@ -309,6 +309,11 @@ class Parser {
     if (++depth_ > static_cast<int>(kDeepestExpression)) fail_nesting();
     steps_.push_back(std::move(leaf));
   }
+  void emit_function(std::shared_ptr<const PlaneFunction> function) {
+    const auto found = std::ranges::find(functions_, function);
+    emit({.leaf = Leaf::kFunction, .function = static_cast<std::size_t>(found - functions_.begin())});
+    if (found == functions_.end()) functions_.push_back(std::move(function));
+  }
   /// In place of a power whose exponent is the step before.
   void square() {
     steps_.pop_back();
@@ -360,6 +365,7 @@ class Parser {
   const NamedRasters& rasters_;
   Token token_;
   std::vector<ExpressionStep> steps_;
+  std::vector<std::shared_ptr<const PlaneFunction>> functions_;
   std::map<std::vector<std::int32_t>, std::shared_ptr<const PlaneFunction>> distances_;
   std::size_t nesting_ = 0;
   int depth_ = 0;  // values on the stack
@@ -367,7 +373,7 @@ class Parser {
 
 }  // namespace
 
-std::vector<ExpressionStep> parse_expression(const std::string& text, const Pslg* input, const NamedRasters& rasters) {
+ParsedExpression parse_expression(const std::string& text, const Pslg* input, const NamedRasters& rasters) {
   return Parser(text, input, rasters).parse();
 }
 

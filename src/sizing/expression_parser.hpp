@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -21,7 +22,12 @@ struct ExpressionStep {
   const Operation* operation = nullptr;  ///< null: a leaf
   Leaf leaf = Leaf::kConstant;
   double constant = 0;
-  std::shared_ptr<const PlaneFunction> function{};
+  std::size_t function = 0;  ///< its index
+};
+
+struct ParsedExpression {
+  std::vector<ExpressionStep> steps;
+  std::vector<std::shared_ptr<const PlaneFunction>> functions;
 };
 
 /// The most values that are on the stack at a time, and the most operators and parentheses within one another.
@@ -31,8 +37,8 @@ inline constexpr std::size_t kLongestExpression = 100'000;  ///< characters
 /// The steps of an expression; docs/size-expressions.md has the grammar. `input`: with the segments that distance
 /// measures to, needed no longer than this call; null: none. Throws InputError naming the column where the expression
 /// is wrong, and the markers that exist where distance asks for another.
-[[nodiscard]] std::vector<ExpressionStep> parse_expression(const std::string& text, const Pslg* input,
-                                                           const NamedRasters& rasters);
+[[nodiscard]] ParsedExpression parse_expression(const std::string& text, const Pslg* input,
+                                                const NamedRasters& rasters);
 
 /// Where an error in an expression is: its beginning, if it is long.
 [[nodiscard]] SourcePlace place_of_expression(const std::string& text);

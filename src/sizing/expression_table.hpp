@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "sizing/interval.hpp"
+#include "sizing/variation.hpp"
 
 namespace driftmesh {
 
@@ -18,10 +18,13 @@ struct Operation {
   int operands;
   double (*value)(const double* operands);      ///< NaN where there is none
   Interval (*range)(const Interval* operands);  ///< over operands that are numbers; kAll where it may be undefined
+  /// By the chain rule, from operands and their slopes in the same directions; null: unknown unless the value is
+  /// constant.
+  Interval (*slope)(const Interval* operands, const Interval* slopes) = nullptr;
   Result result = Result::kNumber;
 
-  /// Holds all values that it can have on operands in these intervals.
-  [[nodiscard]] Interval over(const Interval* operands) const;
+  /// Holds all values and slopes that it can have where the operands vary like this.
+  [[nodiscard]] Variation over(const Variation* operands) const;
 };
 
 /// A binary operator. Those that bind more tightly have a greater precedence; equals group from the left, `^` from the
@@ -51,6 +54,9 @@ struct NamedConstant {
 
 extern const Operation kNegative, kSquare;
 extern const Operation kChoose;  ///< condition ? then : otherwise
+
+/// The most operands that an operation takes.
+inline constexpr int kMostOperands = 3;
 
 /// The functions as a table in Markdown.
 [[nodiscard]] std::string expression_functions_table();

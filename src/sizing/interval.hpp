@@ -145,14 +145,14 @@ template <class Function>
   return outward(std::hypot(x.low, y.low), std::hypot(x.high, y.high));
 }
 
-/// The first of two, where the other is NaN.
+/// The first of two, where one of them is NaN.
 [[nodiscard]] inline Interval smaller(const Interval& a, const Interval& b) {
-  return {std::min(a.low, b.low), b.undefined ? a.high : std::min(a.high, b.high)};
+  return {std::min(a.low, b.low), b.undefined ? a.high : std::min(a.high, b.high), a.undefined};
 }
 
 /// The same.
 [[nodiscard]] inline Interval larger(const Interval& a, const Interval& b) {
-  return {b.undefined ? a.low : std::max(a.low, b.low), std::max(a.high, b.high)};
+  return {b.undefined ? a.low : std::max(a.low, b.low), std::max(a.high, b.high), a.undefined};
 }
 
 [[nodiscard]] inline Interval truth(bool surely, bool surely_not) {

@@ -13,8 +13,9 @@
 #include "sizing/combined_field.hpp"
 #include "sizing/expression_field.hpp"
 #include "sizing/gradation.hpp"
-#include "sizing/graded_field.hpp"
+#include "sizing/grown_function.hpp"
 #include "sizing/sampled_field.hpp"
+#include "sizing/size_tree.hpp"
 
 namespace driftmesh {
 namespace {
@@ -74,11 +75,32 @@ SizeSource area_field(BackgroundMesh mesh, const std::vector<double>& areas, std
   return graded_field(std::move(mesh), std::move(at_points), gradation);
 }
 
+/// Lengths at points alone.
+class ExactField final : public SizeField {
+ public:
+  ExactField(std::shared_ptr<const SizeField> field, std::shared_ptr<const PlaneFunction> function)
+      : field_(std::move(field)), function_(std::move(function)) {}
+  [[nodiscard]] double edge_length(const Point& p) const override {
+    const double length = function_->at(p);
+    return length > 0 ? length : field_->edge_length(p);
+  }
+
+ private:
+  std::shared_ptr<const SizeField> field_;
+  std::shared_ptr<const PlaneFunction> function_;
+};
+
 std::unique_ptr<SizeField> expression_field(const SizingOptions& options) {
-  auto field = std::make_unique<ExpressionField>(options.expression, options.shortest, options.spacing, options.input,
-                                                 options.rasters);
-  if (!options.gradation) return field;
-  return std::make_unique<GradedField>(std::move(field), *options.gradation, options.domain);
+  constexpr double kNarrow = 0.5, kLittle = 0.1, kNarrowIfExact = 0.05;
+  const auto field = std::make_shared<const ExpressionField>(options.expression, options.shortest, options.longest,
+                                                             options.input, options.rasters);
+  std::shared_ptr<const PlaneFunction> function = field->function();
+  if (options.gradation)
+    function = std::make_shared<const GrownFunction>(
+        field, function, *options.gradation, options.domain,
+        options.exact ? kNarrowIfExact : std::min(kNarrow, kLittle / *options.gradation), options.spacing);
+  if (options.exact) return std::make_unique<ExactField>(field, function);
+  return std::make_unique<SizeTree>(field, function, options.domain, options.spacing, SizeTree::Rules{});
 }
 
 /// A background mesh tells all about what lies in it, but not what the nearest points of its boundary say outside.
@@ -134,8 +156,9 @@ SizeSource make_size(const SizingOptions& options) {
     made.background = source.background;
     fields.push_back(sampled_outside(std::move(source), options));
   }
-  if (std::isfinite(options.longest)) fields.push_back(std::make_unique<UniformField>(options.longest));
-  if (fields.size() == 1 && options.shortest == 0)
+  const bool is_bounded = options.background.empty() && !fields.empty();  // what the expression is by itself
+  if (std::isfinite(options.longest) && !is_bounded) fields.push_back(std::make_unique<UniformField>(options.longest));
+  if (fields.size() == 1 && (options.shortest == 0 || is_bounded))
     made.field = std::move(fields.front());
   else if (!fields.empty())
     made.field = std::make_unique<SmallestField>(std::move(fields), options.shortest);

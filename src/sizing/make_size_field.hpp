@@ -34,6 +34,8 @@ struct SizingOptions {
   const Pslg* input = nullptr;
   /// Those that the expression may name.
   NamedRasters rasters{};
+  /// Lengths at points as the sources give them, not from a tree: for those who judge what was made from that.
+  bool exact = false;
 };
 
 /// A size field, and the background mesh in it if there is one.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <utility>
 
 #include "raster/raster.hpp"
@@ -14,9 +15,13 @@ class RasterFunction final : public PlaneFunction {
  public:
   explicit RasterFunction(std::shared_ptr<const Raster> raster) : raster_(std::move(raster)) {}
   [[nodiscard]] double at(const Point& p) const override { return raster_->at(p); }
-  [[nodiscard]] Interval over(const Box& box) const override {
+  [[nodiscard]] Variation over(const Box& box) const override {
+    const auto interval = [](const Extent& extent) { return Interval{extent.low, extent.high}; };
     const Extent values = raster_->over(box);
-    return {values.low, values.high};
+    const Raster::Slopes slopes = raster_->slopes_over(box);
+    const auto most = [](const Extent& e) { return std::max(std::abs(e.low), std::abs(e.high)); };
+    const double steepest = std::hypot(most(slopes.in_x), most(slopes.in_y));
+    return {interval(values), interval(slopes.in_x), interval(slopes.in_y), {-steepest, steepest}};
   }
 
  private:

@@ -7,7 +7,6 @@
 #include "base/mix.hpp"
 #include "geometry/box.hpp"
 #include "geometry/triangle_geometry.hpp"
-#include "sizing/least_search.hpp"
 
 namespace driftmesh {
 namespace {
@@ -122,15 +121,23 @@ double SampledField::length_at(std::int64_t i, std::int64_t j) const {
   const auto tile_of = [](std::int64_t k) { return k >= 0 ? k / kTile : -((-k - 1) / kTile) - 1; };
   const std::int64_t u = tile_of(i), v = tile_of(j);
   const auto ask = [&] { return rounded_down(field_.edge_length(at(i, j))); };
-  auto known = tiles_.find({u, v});
-  if (known == tiles_.end()) {
-    if (tiles_.size() >= kMostTiles) return ask() * grid_.spacing;
-    known = tiles_.emplace(std::array{u, v}, std::make_unique<Tile>()).first;
-    known->second->fill(std::numeric_limits<float>::quiet_NaN());
-  }
-  float& value = (*known->second)[static_cast<std::size_t>((j - v * kTile) * kTile + (i - u * kTile))];
-  if (std::isnan(value)) value = ask();
-  return value * grid_.spacing;
+  Tile* const tile = tile_at({u, v});
+  if (tile == nullptr) return ask() * grid_.spacing;
+  std::atomic<float>& value = (*tile)[static_cast<std::size_t>((j - v * kTile) * kTile + (i - u * kTile))];
+  float known = value.load(std::memory_order_relaxed);
+  if (std::isnan(known)) value.store(known = ask(), std::memory_order_relaxed);
+  return known * grid_.spacing;
+}
+
+/// Null if there are too many already.
+SampledField::Tile* SampledField::tile_at(const std::array<std::int64_t, 2>& place) const {
+  const std::lock_guard lock(lock_);
+  if (const auto known = tiles_.find(place); known != tiles_.end()) return known->second.get();
+  if (tiles_.size() >= kMostTiles) return nullptr;
+  auto made = std::make_unique<Tile>();
+  for (std::atomic<float>& value : *made)
+    value.store(std::numeric_limits<float>::quiet_NaN(), std::memory_order_relaxed);
+  return tiles_.emplace(place, std::move(made)).first->second.get();
 }
 
 }  // namespace driftmesh

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <unordered_map>
 #include <utility>
 
@@ -11,13 +13,17 @@
 
 namespace driftmesh {
 
+/// A length asked for somewhere in a triangle counts if it is less than this times the triangle's.
+inline constexpr double kCounts = 0.9;
+
 /// A size field of which only values at points are known, such as a function of the caller: between the corners and
 /// the centroid of a triangle it is looked up on a grid, and more closely around the lowest point of the grid if it is
 /// steep there.
 ///
-/// Lengths below LeastSearch's kCounts times the triangle's are found wherever they take up a square of the grid's
+/// Lengths below kCounts times the triangle's are found wherever they take up a square of the grid's
 /// spacing. A narrower feature may be missed. The field is asked once for each point of the grid in a triangle (its
-/// value is kept, in 4 bytes), so never at points outside the domain.
+/// value is kept, in 4 bytes), so never at points outside the domain. Several threads may ask at once if the field
+/// allows that, and then may ask it twice.
 class SampledField final : public SizeField {
  public:
   /// Whether the field itself tells all about a triangle by its falls_below.
@@ -36,15 +42,12 @@ class SampledField final : public SizeField {
 
   [[nodiscard]] double edge_length(const Point& p) const override { return field_.edge_length(p); }
   [[nodiscard]] double least() const override { return field_.least(); }
-  [[nodiscard]] double least_near(const std::array<Point, 3>& triangle) const override {
-    return field_.least_near(triangle);
-  }
   [[nodiscard]] bool falls_below(const std::array<Point, 3>& triangle, double length) const override;
   void visit_marks(const std::function<void(const Point&)>& visit) const override { field_.visit_marks(visit); }
 
  private:
   static constexpr std::int64_t kTile = 32;
-  using Tile = std::array<float, kTile * kTile>;
+  using Tile = std::array<std::atomic<float>, kTile * kTile>;
   struct TileHash {
     std::size_t operator()(const std::array<std::int64_t, 2>& place) const;
   };
@@ -56,12 +59,14 @@ class SampledField final : public SizeField {
                                     double limit) const;
   [[nodiscard]] Point at(std::int64_t i, std::int64_t j) const;
   [[nodiscard]] double length_at(std::int64_t i, std::int64_t j) const;
+  [[nodiscard]] Tile* tile_at(const std::array<std::int64_t, 2>& place) const;
   [[nodiscard]] float rounded_down(double length) const;
 
   std::unique_ptr<const SizeField> owned_;
   const SizeField& field_;
   Grid grid_;
   Knows knows_;
+  mutable std::mutex lock_;  // of the map
   mutable std::unordered_map<std::array<std::int64_t, 2>, std::unique_ptr<Tile>, TileHash> tiles_;
 };
 

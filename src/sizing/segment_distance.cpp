@@ -1,17 +1,29 @@
 #include "sizing/segment_distance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <vector>
+#include <limits>
+#include <utility>
 
 #include "driftmesh/error.hpp"
+#include "geometry/box_tree.hpp"
 #include "geometry/triangle_geometry.hpp"
+#include "sizing/nearest_in_square.hpp"
 
 namespace driftmesh {
 namespace {
 
-std::vector<NearestCells::Ends> segments_with(const Pslg& pslg, std::span<const std::int32_t> markers) {
-  std::vector<NearestCells::Ends> segments;
+using Ends = SegmentDistance::Ends;
+using Line = SegmentDistance::Line;
+
+constexpr std::size_t kFewest = 4;  // fewer are not worth their memory
+constexpr std::size_t kFew = 48;
+/// Relative to coordinates. What rounding does to distances is a tenth of it.
+constexpr double kMargin = 0x1p-43;
+
+std::vector<Ends> segments_with(const Pslg& pslg, std::span<const std::int32_t> markers) {
+  std::vector<Ends> segments;
   for (const Pslg::Segment& s : pslg.segments) {
     if (!markers.empty() && std::ranges::find(markers, s.marker) == markers.end()) continue;
     segments.push_back({pslg.points[s.a], pslg.points[s.b]});
@@ -20,22 +32,155 @@ std::vector<NearestCells::Ends> segments_with(const Pslg& pslg, std::span<const 
   return segments;
 }
 
-}  // namespace
-
-SegmentDistance::SegmentDistance(const Pslg& pslg, std::span<const std::int32_t> markers)
-    : segments_(segments_with(pslg, markers)),
-      extent_(std::sqrt(squared_distance(segments_.box().low, segments_.box().high))) {}
-
-double SegmentDistance::at(const Point& p) const {
-  return std::sqrt(segments_.squared_distance(p));
+std::vector<Box> boxes_of(const std::vector<Ends>& segments) {
+  std::vector<Box> boxes(segments.size());
+  std::ranges::transform(segments, boxes.begin(), [](const Ends& s) { return Box::around(s.a, s.b); });
+  return boxes;
 }
 
-Interval SegmentDistance::over(const Box& box) const {
-  const double radius = std::sqrt(squared_distance(box.low, box.high)) / 2;
-  if (!std::isfinite(radius)) return {0, intervals::kAll.high};
-  const double middle = at(box.center());
-  const double rounding = 0x1p-48 * (middle + radius + extent_);  // for both distances
-  return {std::max(middle - radius - rounding, 0.0), middle + radius + rounding};
+Line line_of(const Ends& s) {
+  const double length = std::sqrt(squared_distance(s.a, s.b));
+  return {s.a, length > 0 ? Point{(s.b.x - s.a.x) / length, (s.b.y - s.a.y) / length} : Point{}, length};
+}
+
+Point nearest_on(const Line& s, const Point& p) {
+  const double along = (p.x - s.from.x) * s.direction.x + (p.y - s.from.y) * s.direction.y;
+  const double t = std::clamp(along, 0.0, s.length);
+  return {s.from.x + t * s.direction.x, s.from.y + t * s.direction.y};
+}
+
+double squared_to(const Point& p, const Line& s) {
+  return squared_distance(p, nearest_on(s, p));
+}
+
+bool may_be_nearest(const NearestInSquare& square, const Line& s) {
+  const Point& center = square.center();
+  const Point end{s.from.x + s.length * s.direction.x, s.from.y + s.length * s.direction.y};
+  return square.needs(0, nearest_on(s, center), [&](const Point& d) {
+    const auto along = [&](const Point& p) { return d.x * (center.x - p.x) + d.y * (center.y - p.y); };
+    return std::min(along(s.from), along(end));
+  });
+}
+
+double half_diagonal(const Box& box) {
+  return std::sqrt(squared_distance(box.low, box.high)) / 2;
+}
+
+/// Of the distance to a segment, at the points of a box.
+DirectionRange slopes_of(const Line& s, const Box& box, double radius) {
+  const Point center = box.center();
+  const double dx = center.x - s.from.x, dy = center.y - s.from.y;
+  const double half_x = (box.high.x - box.low.x) / 2, half_y = (box.high.y - box.low.y) / 2;
+  const Point& along = s.direction;
+  const double place = dx * along.x + dy * along.y, reach = half_x * std::fabs(along.x) + half_y * std::fabs(along.y);
+  if (s.length > 0 && place >= reach && place + reach <= s.length) {  // nearest is always a point between the ends
+    const Point normal{-along.y, along.x};
+    const double beside = dx * normal.x + dy * normal.y;
+    const double across = half_x * std::fabs(normal.x) + half_y * std::fabs(normal.y);
+    const double low = beside < across ? -1 : 1, high = beside > -across ? 1 : -1;
+    const auto [low_x, high_x] = std::minmax({low * normal.x, high * normal.x});
+    const auto [low_y, high_y] = std::minmax({low * normal.y, high * normal.y});
+    return {low_x, high_x, low_y, high_y};
+  }
+  const Point nearest = nearest_on(s, center);
+  const double distance = std::sqrt(squared_distance(center, nearest));
+  return directions_around({(center.x - nearest.x) / distance, (center.y - nearest.y) / distance}, radius, distance);
+}
+
+}  // namespace
+
+struct SegmentDistance::All {
+  explicit All(std::vector<Ends> given) : segments(std::move(given)), tree(boxes_of(segments)) {
+    for (const Ends& s : segments) lines.push_back(line_of(s));
+    for (const Ends& s : segments) box.extend(Box::around(s.a, s.b));
+    extent = std::sqrt(squared_distance(box.low, box.high));
+    margin =
+        kMargin *
+        (std::max({std::fabs(box.low.x), std::fabs(box.low.y), std::fabs(box.high.x), std::fabs(box.high.y)}) + extent);
+  }
+  std::vector<Ends> segments;
+  std::vector<Line> lines;
+  BoxTree tree;
+  Box box;
+  double extent;  // diagonal of the box around all segments
+  double margin = 0;
+};
+
+SegmentDistance::SegmentDistance(std::vector<Ends> segments) : all_(std::make_shared<const All>(std::move(segments))) {}
+
+SegmentDistance::SegmentDistance(const Pslg& pslg, std::span<const std::int32_t> markers)
+    : SegmentDistance(segments_with(pslg, markers)) {}
+
+SegmentDistance::SegmentDistance(std::shared_ptr<const All> all, std::vector<Line> few)
+    : all_(std::move(all)), few_(std::move(few)) {}
+
+SegmentDistance::Nearest SegmentDistance::nearest(const Point& p) const {
+  if (few_.empty()) {
+    // Not less than that of the box, so that no rounding error makes the least depend on the order of the search.
+    const auto distance = [&](std::int32_t item) {
+      const Ends& s = all_->segments[item];
+      return std::max(squared_to(p, all_->lines[item]), Box::around(s.a, s.b).squared_distance(p));
+    };
+    const std::int32_t item = all_->tree.nearest(p, distance);
+    return {&all_->lines[item], squared_to(p, all_->lines[item])};
+  }
+  Nearest best{nullptr, std::numeric_limits<double>::infinity()};
+  for (const Line& s : few_)
+    if (const double here = squared_to(p, s); here < best.squared_distance) best = {&s, here};
+  return best.line != nullptr ? best : Nearest{&few_.front(), best.squared_distance};
+}
+
+double SegmentDistance::at(const Point& p) const {
+  return std::sqrt(nearest(p).squared_distance);
+}
+
+Variation SegmentDistance::over(const Box& box) const {
+  constexpr Interval kAny{-1, 1};
+  const double radius = half_diagonal(box);
+  if (!std::isfinite(radius)) return {{0, intervals::kAll.high}, kAny, kAny, kAny};
+  const Nearest rival = nearest(box.center());
+  const double middle = std::sqrt(rival.squared_distance);
+  const double rounding = 0x1p-48 * (middle + radius + all_->extent);  // for both distances
+  const Interval value{std::max(middle - radius - rounding, 0.0), middle + radius + rounding};
+  if (few_.empty()) return {value, kAny, kAny, kAny};
+  DirectionRange slopes = slopes_of(*rival.line, box, radius);
+  if (few_.size() > 1) {
+    const NearestInSquare square = against(*rival.line, box);
+    const double far = middle + 2 * radius + rounding;
+    for (const Line& s : few_) {
+      if (&s == rival.line || squared_to(box.center(), s) > far * far || !may_be_nearest(square, s)) continue;
+      const DirectionRange own = slopes_of(s, box, radius);
+      slopes = {std::min(slopes.low_x, own.low_x), std::max(slopes.high_x, own.high_x),
+                std::min(slopes.low_y, own.low_y), std::max(slopes.high_y, own.high_y)};
+    }
+  }
+  return {value, {slopes.low_x, slopes.high_x}, {slopes.low_y, slopes.high_y}, kAny};
+}
+
+NearestInSquare SegmentDistance::against(const Line& rival, const Box& box) const {
+  std::array<double, 4> at_corners;
+  const std::array<Point, 4> corners = NearestInSquare::corners_of(box);
+  for (std::size_t k = 0; k < 4; ++k) at_corners[k] = std::sqrt(squared_to(corners[k], rival)) + all_->margin;
+  return {box, 1, at_corners};
+}
+
+/// The rival is the segment nearest to the center.
+std::shared_ptr<const PlaneFunction> SegmentDistance::within(const Box& box) const {
+  if (!few_.empty() && few_.size() <= kFewest) return nullptr;
+  const NearestInSquare square = against(*nearest(box.center()).line, box);
+  std::vector<Line> found;
+  found.reserve(few_.empty() ? kFew + 1 : few_.size());
+  if (few_.empty()) {
+    const auto enter = [&](const Box& around) { return found.size() <= kFew && square.needs(0, around); };
+    all_->tree.search(enter, [&](std::int32_t item) {
+      if (may_be_nearest(square, all_->lines[item])) found.push_back(all_->lines[item]);
+    });
+    if (found.size() > kFew) return nullptr;
+  } else {
+    std::ranges::copy_if(few_, std::back_inserter(found), [&](const Line& s) { return may_be_nearest(square, s); });
+    if (found.size() == few_.size()) return nullptr;
+  }
+  return std::shared_ptr<const SegmentDistance>(new SegmentDistance(all_, std::move(found)));
 }
 
 }  // namespace driftmesh

@@ -37,8 +37,8 @@ bool holds(const std::array<Point, 3>& t, const Point& p) {
 
 }  // namespace
 
-SizeCheck::SizeCheck(const SizeField& field, double spacing, double most_area)
-    : field_(field), spacing_(spacing), most_area_(most_area) {
+SizeCheck::SizeCheck(const SizeField& field, double spacing, double most_area, double at_corners)
+    : field_(field), spacing_(spacing), most_area_(most_area), at_corners_(at_corners) {
   std::vector<Box> boxes;
   field.visit_marks([&](const Point& p) {
     marks_.push_back({p, 0});
@@ -52,7 +52,7 @@ double SizeCheck::at_corners(const Triangle& triangle) const {
   const auto& [a, b, c] = triangle;
   double h = field_.edge_length({(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3});
   for (const Point& p : {a, b, c}) h = std::min(h, field_.edge_length(p));
-  return h;
+  return h / at_corners_;
 }
 
 std::optional<SizeCheck::Miss> SizeCheck::find_miss(const Triangle& t, double area) const {

@@ -22,10 +22,11 @@ class SizeCheck {
 
   /// Besides the marks, the field is looked up at 16 points of each triangle, and at four for each square of the
   /// spacing if it has more, but no more than for `most_area`: a larger triangle, which does not fit into the domain,
-  /// must not take forever. 0: no spacing. `field` must outlive the object.
-  SizeCheck(const SizeField& field, double spacing, double most_area);
+  /// must not take forever. 0: no spacing. `field` must outlive the object. `at_corners`: an edge may be 1 / this times
+  /// what is asked for at corners and centroid.
+  SizeCheck(const SizeField& field, double spacing, double most_area, double at_corners = 1);
 
-  /// The length that is asked for at the corners and the centroid.
+  /// The length up to which an edge may be for what is asked for at the corners and the centroid.
   [[nodiscard]] double at_corners(const Triangle& triangle) const;
 
   struct Miss {
@@ -41,7 +42,7 @@ class SizeCheck {
 
   const SizeField& field_;
   double spacing_;
-  double most_area_;
+  double most_area_, at_corners_;
   std::vector<Miss> marks_;
   BoxTree mark_tree_;
 };

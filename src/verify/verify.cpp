@@ -74,7 +74,9 @@ class Verification {
   }
 
   void check_pieces() {
-    if (options_.size != nullptr) size_.emplace(*options_.size, options_.size_spacing, largest_triangle());
+    if (options_.size != nullptr)
+      size_.emplace(*options_.size, options_.size_spacing, largest_triangle(),
+                    options_.size_is_compiled ? SizeCheck::kTolerated : 1);
     bounds_ = {options_.min_angle, options_.plain, {}, size_ ? &*size_ : nullptr};
     check_all_pieces();
     if (whole_) return;

@@ -22,6 +22,8 @@ struct VerifyOptions {
   const SizeField* size = nullptr;  ///< target edge lengths that bound areas, or null; must outlive the call
   /// Inside large triangles the size is looked up four times in each square of this side; 0: at 16 points only.
   double size_spacing = 0;
+  /// At corners and centroids, too, edges may be as much longer than the size as between them.
+  bool size_is_compiled = false;
   /// The input before it was repaired, or null. If it consists of polygons, these are read anew, in the verifier's own
   /// way: what repair made of them must be the same up to rounding. Must outlive the call.
   const Pslg* given = nullptr;

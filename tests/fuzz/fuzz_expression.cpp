@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Expression expression(std::string(reinterpret_cast<const char*>(data), size), &pslg);
     for (const Point& p : {Point{0, 0}, {1, -1}, {0.3, 0.7}, {-40, 1e5}})
       for (const double margin : {0.0, 0.125, 10.0}) {
-        const Interval range = expression.over(Box::around(p, p, margin));
+        const Interval range = expression.over(Box::around(p, p, margin)).value;
         const double value = expression.at(p);
         if (std::isnan(value) ? !range.undefined : !range.holds(value)) std::abort();
       }

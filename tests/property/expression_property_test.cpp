@@ -237,10 +237,10 @@ TEST_CASE("values of formulas are those of their trees, and in the intervals of 
     const std::string text = printer.print(tree);
     CAPTURE(text);
     const Expression expression(text);
-    const Interval everywhere = expression.over(kEverywhere);
+    const Interval everywhere = expression.over(kEverywhere).value;
     for (int k = 0; k < 3; ++k, ++boxes) {
       const Box box = random_box(random);
-      const Interval range = expression.over(box);
+      const Interval range = expression.over(box).value;
       tight += range.high - range.low < 1e6;
       for (int j = 0; j < 8; ++j) {
         const Point p = random_point(random, box);
@@ -267,7 +267,7 @@ TEST_CASE("intervals of single operations on a coordinate are exact but for roun
     const Expression expression(text);
     for (int i = 0; i < 300; ++i) {
       const double low = uniform(random, -2, 4), high = low + uniform(random, 0, 3);
-      const Interval range = expression.over({{low, 0}, {high, 0}});
+      const Interval range = expression.over({{low, 0}, {high, 0}}).value;
       if (range.undefined) {
         CHECK(
             (std::isnan(expression.at({low, 0})) || std::isnan(expression.at({high, 0})) || !std::isfinite(range.low)));

@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <memory>
 #include <random>
-#include <thread>
 #include <vector>
 
 #include "property/cases.hpp"
-#include "sizing/nearest_cells.hpp"
+#include "sizing/segment_distance.hpp"
 
-// The distance to the nearest of some segments, against a look at each of them: the same bits, wherever the segments
-// and the points are, and in whatever order and by how many threads it is asked.
+// The distance to the nearest of some segments, against a look at each of them, wherever the segments and the points
+// are, and what is known of it within smaller and smaller boxes.
 
 using namespace driftmesh;
 using namespace driftmesh::testing;
@@ -20,7 +21,7 @@ using namespace driftmesh::testing;
 namespace {
 
 using Random = std::mt19937_64;
-using Segments = std::vector<NearestCells::Ends>;
+using Segments = std::vector<SegmentDistance::Ends>;
 
 double uniform(Random& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
@@ -30,7 +31,7 @@ Point around(Random& random, const Point& p, double reach) {
   return {p.x + uniform(random, -reach, reach), p.y + uniform(random, -reach, reach)};
 }
 
-Point on(const NearestCells::Ends& s, double t) {
+Point on(const SegmentDistance::Ends& s, double t) {
   return {s.a.x + t * (s.b.x - s.a.x), s.a.y + t * (s.b.y - s.a.y)};
 }
 
@@ -110,7 +111,7 @@ Segments random_segments(Random& random) {
   Segments all = kKinds[random() % kKinds.size()](random, count);
   const double scale = std::pow(10, uniform(random, -6, 6));
   const Point shift = random() % 2 == 0 ? Point{} : around(random, {}, scale * std::pow(10, uniform(random, 0, 12)));
-  for (NearestCells::Ends& s : all)
+  for (SegmentDistance::Ends& s : all)
     for (Point* end : {&s.a, &s.b}) *end = {scale * end->x + shift.x, scale * end->y + shift.y};
   return all;
 }
@@ -137,97 +138,92 @@ Point random_place(Random& random, const Segments& segments, const Box& box) {
   }
 }
 
-/// So many points around a place, closer and closer, that squares there are made and divided.
-std::vector<Point> random_points(Random& random, const Segments& segments, const Box& box) {
-  const double side = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
-  std::vector<Point> points;
-  for (int k = 0; k < 6; ++k) {
-    const Point place = random_place(random, segments, box);
-    double reach = 0.1 * side;
-    for (int i = 0; i < 150; ++i, reach *= 0.93) points.push_back(around(random, place, reach));
-    points.push_back(place);
-  }
-  for (int k = 0; k < 300; ++k) points.push_back(random_place(random, segments, box));
-  return points;
+double to_segment(const Point& p, const SegmentDistance::Ends& s) {
+  const double ex = s.b.x - s.a.x, ey = s.b.y - s.a.y, square = ex * ex + ey * ey;
+  const double t = square > 0 ? std::clamp(((p.x - s.a.x) * ex + (p.y - s.a.y) * ey) / square, 0.0, 1.0) : 0;
+  return std::hypot(p.x - s.a.x - t * ex, p.y - s.a.y - t * ey);
 }
 
 double one_by_one(const Segments& segments, const Point& p) {
   double least = std::numeric_limits<double>::infinity();
-  for (const NearestCells::Ends& s : segments) least = std::min(least, NearestCells::squared_distance(p, s));
+  for (const SegmentDistance::Ends& s : segments) least = std::min(least, to_segment(p, s));
   return least;
+}
+
+Box box_of(const Segments& segments) {
+  Box box;
+  for (const SegmentDistance::Ends& s : segments) box.extend(Box::around(s.a, s.b));
+  return box;
+}
+
+/// A quarter of a box.
+Box quarter(const Box& box, std::uint64_t k) {
+  const Point m = box.center();
+  return {{k % 2 == 0 ? box.low.x : m.x, k < 2 ? box.low.y : m.y},
+          {k % 2 == 0 ? m.x : box.high.x, k < 2 ? m.y : box.high.y}};
+}
+
+Point somewhere_in(Random& random, const Box& box) {
+  return {uniform(random, box.low.x, box.high.x), uniform(random, box.low.y, box.high.y)};
 }
 
 }  // namespace
 
-TEST_CASE("the nearest of random segments is that of a look at each of them, to the last bit") {
+TEST_CASE("the nearest of random segments is that of a look at each of them") {
   Random random = seeded_generator("nearest");
-  int divided = 0;
-  constexpr std::int64_t kCases = 150;
-  for (std::int64_t c = 0; more_cases(c, kCases, divided > 20); ++c) {
+  for (std::int64_t c = 0; c < case_count(150); ++c) {
     CAPTURE(c);
     const Segments segments = random_segments(random);
-    const NearestCells cells(segments);
+    const SegmentDistance distance(segments);
+    const Box box = box_of(segments);
+    const double extent = std::hypot(box.low.x, box.low.y) + std::hypot(box.high.x, box.high.y);
     int wrong = 0;
-    for (const Point& p : random_points(random, segments, cells.box()))
-      wrong += cells.squared_distance(p) != one_by_one(segments, p) ? 1 : 0;
+    for (int k = 0; k < 400; ++k) {
+      const Point p = random_place(random, segments, box);
+      const double expected = one_by_one(segments, p);
+      wrong += std::fabs(distance.at(p) - expected) <= 1e-14 * (extent + expected) ? 0 : 1;
+    }
     CHECK(wrong == 0);
-    divided += cells.size() > 50 ? 1 : 0;
   }
 }
 
-TEST_CASE("there are no more squares than a number for each segment, and none without questions") {
-  Random random = seeded_generator("number of squares");
-  const Segments segments = circle(random, 500);
-  const NearestCells cells(segments);
-  CHECK(cells.size() == 1);
-  const std::size_t most = 6 * segments.size() + 10'000;
-  int wrong = 0;
-  for (int i = 0; i < 100'000; ++i) {
-    const Point p = around(random, {}, i % 2 == 0 ? 0.3 : 1e-2);
-    wrong += cells.squared_distance(p) != one_by_one(segments, p) ? 1 : 0;
-  }
-  CHECK(wrong == 0);
-  CHECK(cells.size() <= most);
-  CHECK(cells.size() > most - 4);
-}
-
-TEST_CASE("threads that ask at once find what one does") {
-  Random random = seeded_generator("nearest by threads");
-  for (std::int64_t c = 0; c < case_count(20); ++c) {
+TEST_CASE("within smaller and smaller boxes distances stay the same, and bounds hold values and slopes") {
+  Random random = seeded_generator("nearest within boxes");
+  int narrowed = 0, straight = 0;
+  constexpr std::int64_t kCases = 60;
+  for (std::int64_t c = 0; more_cases(c, kCases, narrowed > 500 && straight > 100); ++c) {
     CAPTURE(c);
     const Segments segments = random_segments(random);
-    const NearestCells cells(segments);
-    const std::vector<Point> points = random_points(random, segments, cells.box());
-    std::vector<double> expected(points.size());
-    std::ranges::transform(points, expected.begin(), [&](const Point& p) { return one_by_one(segments, p); });
-    std::vector<int> wrong(3, 0);
-    std::vector<std::thread> threads;
-    for (int& own : wrong)
-      threads.emplace_back([&] {
-        for (std::size_t i = 0; i < points.size(); ++i) own += cells.squared_distance(points[i]) != expected[i] ? 1 : 0;
-      });
-    for (std::thread& t : threads) t.join();
-    CHECK(wrong == std::vector<int>(3, 0));
+    const SegmentDistance whole(segments);
+    const Box around_all = box_of(segments);
+    const double side = std::max({around_all.high.x - around_all.low.x, around_all.high.y - around_all.low.y, 1e-12});
+    const double rounding = 1e-13 * (side + std::hypot(around_all.high.x, around_all.high.y));
+    for (int k = 0; k < 12; ++k) {
+      std::shared_ptr<const PlaneFunction> function = std::make_shared<SegmentDistance>(segments);
+      const Point target = random_place(random, segments, around_all);
+      Box box{{target.x - side * uniform(random, 0.2, 2), target.y - side * uniform(random, 0.2, 2)}, {}};
+      box.high = {box.low.x + 3 * side, box.low.y + 3 * side};
+      for (int depth = 0; depth < 14 && box.high.x - box.low.x > 1e4 * rounding; ++depth) {
+        if (auto less = function->within(box); less != nullptr) function = std::move(less), ++narrowed;
+        const Variation found = function->over(box);
+        for (int n = 0; n < 6; ++n) {
+          const Point p = somewhere_in(random, box), q = somewhere_in(random, box);
+          const double at_p = function->at(p), there = std::hypot(q.x - p.x, q.y - p.y);
+          CHECK(std::fabs(at_p - whole.at(p)) <= rounding);
+          CHECK((at_p >= found.value.low - rounding && at_p <= found.value.high + rounding));
+          const auto slope_in = [&](const Interval& slopes, const Point& to, double by) {
+            const double rise = function->at(to) - at_p, low = by > 0 ? slopes.low : slopes.high,
+                         high = by > 0 ? slopes.high : slopes.low;
+            CHECK((rise >= low * by - rounding && rise <= high * by + rounding));
+          };
+          slope_in(found.in_x, {q.x, p.y}, q.x - p.x);
+          slope_in(found.in_y, {p.x, q.y}, q.y - p.y);
+          CHECK(std::fabs(function->at(q) - at_p) <= found.steepest() * there + rounding);
+        }
+        straight += found.in_x.high - found.in_x.low < 0.01 && found.in_y.high - found.in_y.low < 0.01 ? 1 : 0;
+        const Point m = box.center();
+        box = quarter(box, (target.x < m.x ? 0U : 1U) + (target.y < m.y ? 0U : 2U));
+      }
+    }
   }
-}
-
-TEST_CASE("coordinates whose squares are no numbers leave the answer to the tree") {
-  Random random = seeded_generator("extreme coordinates");
-  for (const double scale : {1e-310, 1e-200, 1e-162, 1e-158, 1e-154, 1e150, 1e154, 1e200}) {
-    CAPTURE(scale);
-    Segments segments = scattered(random, 60);
-    for (NearestCells::Ends& s : segments)
-      for (Point* end : {&s.a, &s.b}) *end = {scale * end->x, scale * end->y};
-    const NearestCells cells(segments);
-    int wrong = 0;
-    for (const Point& p : random_points(random, segments, cells.box()))
-      wrong += cells.squared_distance(p) != one_by_one(segments, p) ? 1 : 0;
-    CHECK(wrong == 0);
-    CHECK(cells.size() == 1);
-  }
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  const Segments one{{{2, 3}, {2, 3}}};
-  const NearestCells cells(one);
-  for (const Point& p : {Point{kFar, 0}, Point{2, -kFar}, Point{1e300, 1}, Point{5, 7}, Point{2, 3}})
-    CHECK(cells.squared_distance(p) == one_by_one(one, p));
 }

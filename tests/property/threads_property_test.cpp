@@ -28,8 +28,7 @@
 #include "runtime/subdomain_loop.hpp"
 #include "runtime/threads/refinement_in_rounds.hpp"
 #include "runtime/threads/thread_crew.hpp"
-#include "sizing/expression_field.hpp"
-#include "sizing/field_of_threads.hpp"
+#include "sizing/make_size_field.hpp"
 #include "support/refine_together.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
@@ -41,8 +40,6 @@ using namespace driftmesh;
 using namespace driftmesh::testing;
 
 namespace {
-
-using Sizes = std::vector<std::unique_ptr<const SizeField>>;
 
 struct Outcome {
   std::uint64_t digest = 0;
@@ -76,8 +73,10 @@ class Case {
     bounds_.min_angle = std::uniform_real_distribution(15.0, 28.0)(random);
     if (random() % 2 == 0) bounds_.plain.area = 0.02;
     if (random() % 3 == 0) expression_ = "0.05 + 0.2*abs(x)";
-    sizes_ = fields(1);
-    bounds_.size = sizes_.front().get();
+    if (!expression_.empty())
+      size_ = make_size_field(
+          {.expression = expression_, .gradation = 0.15, .spacing = 0.001, .domain = Box::of(input_.points)});
+    bounds_.size = size_.get();
     DecomposeOptions cutting;
     cutting.subdomains = static_cast<std::int32_t>(2 + random() % 11);
     cutting.bounds = bounds_;
@@ -102,10 +101,8 @@ class Case {
     PlanOptions options = options_for(threads, slice_, presplit);
     options.work.sleep = sleep;
     const RunPlan plan = plan_run(decomposition_, bounds_, options, balancer::make_policy);
-    const Sizes sizes = fields(threads);
-    std::vector<const SizeField*> borrowed;
-    for (const auto& size : sizes) borrowed.push_back(size.get());
-    RefinementInRounds refinement(plan, borrowed, watch);
+    const std::vector<const SizeField*> sizes(static_cast<std::size_t>(threads), bounds_.size);
+    RefinementInRounds refinement(plan, sizes, watch);
     refinement.run();
     check_mesh(refinement.subdomains(), presplit);
     Outcome outcome;
@@ -129,8 +126,6 @@ class Case {
     IdVector<Rank, CrewedRank> crewed(to_index(ranks));
     for (const Rank r : ids_of(crewed)) {
       crewed[r].plan = plan;
-      if (!expression_.empty())
-        crewed[r].plan.bounds.size = &crewed[r].size.emplace(fields(static_cast<std::int32_t>(crew) + 1));
       crewed[r].crew.emplace(crew);
       crewed[r].loop.emplace(network.transport(r), crewed[r].plan);
       crewed[r].loop->hire(*crewed[r].crew);
@@ -151,17 +146,9 @@ class Case {
  private:
   struct CrewedRank {
     RunPlan plan;
-    std::optional<FieldOfThreads> size;
     std::optional<ThreadCrew> crew;
     std::optional<SubdomainLoop> loop;
   };
-
-  [[nodiscard]] Sizes fields(std::int32_t count) const {
-    Sizes made;
-    for (std::int32_t i = 0; i < count; ++i)
-      made.push_back(expression_.empty() ? nullptr : std::make_unique<ExpressionField>(expression_));
-    return made;
-  }
 
   void check_mesh(const std::map<SubdomainId, Subdomain>& subdomains, Presplit presplit) const {
     PieceAssembly assembly(Rank{0}, 1, decomposition_, held_by_rank(subdomains));
@@ -179,7 +166,7 @@ class Case {
   Pslg input_;
   QualityBounds bounds_;
   std::string expression_;
-  Sizes sizes_;
+  std::unique_ptr<SizeField> size_;
   Decomposition decomposition_;
   std::int64_t slice_ = 1;
 };

@@ -80,7 +80,6 @@ TEST_CASE("of bounds of several kinds the smallest counts, in each region and at
   CHECK(sizes.length_at({0.3, 9}) == doctest::Approx(0.03));
   CHECK(sizes.length_at({0.9, 9}) == doctest::Approx(0.03));
   CHECK(sizes.least_length() == 0.02);
-  CHECK(sizes.least_near(kAside) == 0.02);
   CHECK(sizes.least_between(kAside, 0.04) == doctest::Approx(0.03));
   CHECK(sizes.falls_below(kAside, 0.0401));
   CHECK(!sizes.falls_below(kAside, 0.0399));

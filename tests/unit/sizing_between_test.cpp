@@ -8,10 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "driftmesh/error.hpp"
 #include "sizing/background_field.hpp"
 #include "sizing/combined_field.hpp"
 #include "sizing/expression.hpp"
 #include "sizing/expression_field.hpp"
+#include "sizing/make_size_field.hpp"
 #include "sizing/sampled_field.hpp"
 #include "support/infinity.hpp"
 #include "unit/sizing_mesh_fixture.hpp"
@@ -26,7 +28,7 @@ namespace {
 constexpr std::array<Point, 3> kHalfSquare{{{0, 0}, {1, 0}, {1, 1}}};
 
 Interval range_of(const std::string& expression, const Box& box) {
-  return Expression(expression).over(box);
+  return Expression(expression).over(box).value;
 }
 
 void check_range(const std::string& expression, double low, double high) {
@@ -34,6 +36,12 @@ void check_range(const std::string& expression, double low, double high) {
   const Interval range = range_of(expression, {{-1, 2}, {3, 4}});
   CHECK((range.low == low || range.low == doctest::Approx(low)));
   CHECK((range.high == high || range.high == doctest::Approx(high)));
+}
+
+/// As it is compiled for meshes of a domain.
+std::unique_ptr<SizeField> compiled(const std::string& expression, const Box& domain = {{0, 0}, {1, 1}}) {
+  return make_size_field(
+      {.expression = expression, .spacing = (domain.high.x - domain.low.x) / 2000, .domain = domain});
 }
 
 /// A field that counts how often it is asked.
@@ -90,59 +98,61 @@ TEST_CASE("what overflows on the way does not hide values that do not") {
   const Expression tiny("x^-1030");
   const double value = tiny.at({2, 0});
   CHECK(value > 0);
-  CHECK(tiny.over({{2, 0}, {2, 0}}).holds(value));
+  CHECK(tiny.over({{2, 0}, {2, 0}}).value.holds(value));
 }
 
 TEST_CASE("an expression falls below a length where it does, however narrow the place") {
-  const ExpressionField bump("0.3 - 0.29*exp(-((x-0.6)^2 + (y-0.3)^2)*1e12)");
-  CHECK(bump.falls_below(kHalfSquare, 0.2));
-  CHECK(bump.falls_below(kHalfSquare, 0.02));
-  CHECK(!bump.falls_below(kHalfSquare, 0.0111));  // a tenth more than its least
-  CHECK(!bump.falls_below({{{0, 0}, {1, 1}, {0, 1}}}, 0.2));
-  const ExpressionField crease("1e-6 + 10*abs(y - 0.3)");
-  CHECK(crease.falls_below(kHalfSquare, 1e-4));
-  CHECK(!crease.falls_below(kHalfSquare, 1e-6));
-  CHECK(!crease.falls_below({{{0, 0}, {0.2, 0}, {0.2, 0.2}}}, 0.9));
+  const auto bump = compiled("0.3 - 0.29*exp(-((x-0.6)^2 + (y-0.3)^2)*1e12)");
+  CHECK(bump->falls_below(kHalfSquare, 0.2));
+  CHECK(bump->falls_below(kHalfSquare, 0.02));
+  CHECK(!bump->falls_below(kHalfSquare, 0.0111));  // a tenth more than its least
+  CHECK(!bump->falls_below({{{0, 0}, {0.5, 1}, {0, 1}}}, 0.2));
+  const auto crease = compiled("1e-4 + 10*abs(y - 0.3)");
+  CHECK(crease->falls_below(kHalfSquare, 1e-2));
+  CHECK(!crease->falls_below(kHalfSquare, 1e-4));
+  CHECK(!crease->falls_below({{{0, 0}, {0.2, 0}, {0.2, 0.2}}}, 0.9));
 }
 
-TEST_CASE("the search ends where coordinates have no digits left") {
-  const ExpressionField crease("1e-30 + abs(y - 1e6)");
+TEST_CASE("squares end where coordinates have no digits left") {
+  const Box domain{{1e6 - 1e-9, 1e6 - 1e-9}, {1e6 + 2e-9, 1e6 + 2e-9}};
   const std::array<Point, 3> tiny{{{1e6, 1e6 - 1e-9}, {1e6 + 2e-9, 1e6 - 1e-9}, {1e6, 1e6 + 1e-9}}};
-  CHECK(crease.falls_below(tiny, 1e-9));
-  CHECK(!ExpressionField("2e-9 + abs(y - 1e6)").falls_below(tiny, 1e-9));
+  CHECK(compiled("1e-30 + abs(y - 1e6)", domain)->falls_below(tiny, 1e-9));
+  CHECK(!compiled("2e-9 + abs(y - 1e6)", domain)->falls_below(tiny, 1e-9));
 }
 
-TEST_CASE("the least length near a triangle is a bound on all in it, and a close one where lengths change little") {
-  const auto field = std::make_unique<ExpressionField>("0.1 + 0.02*(x - 0.3)^2 + 0.01*y^2");
+TEST_CASE("lengths are close to those of the expression, and exact where it is linear") {
+  const std::string expression = "0.1 + 0.2*(x - 0.3)^2 + 0.1*abs(y - 0.4)";
+  const auto field = compiled(expression), linear = compiled("0.125 + 0.5*x + 0.25*y");
+  const ExpressionField exact(expression);
   for (int i = 0; i < 400; ++i) {
-    const double x = 0.01 * i - 2, y = 0.03 * (i % 50), side = i % 3 == 0 ? 0.5 : 0.002;
-    const std::array<Point, 3> triangle{{{x, y}, {x + side, y}, {x, y + side}}};
-    const double least = field->least_near(triangle);
-    double found = kInfinity;
-    for (int j = 0; j <= 10; ++j)
-      for (int k = 0; j + k <= 10; ++k)
-        found = std::min(found, field->edge_length({x + side * j / 10, y + side * k / 10}));
-    CHECK(least <= found);
-    if (side < 0.1) CHECK(least >= 0.95 * found);
+    const Point p{0.0024 * i, 0.03 * (i % 33)};
+    CHECK(field->edge_length(p) == doctest::Approx(exact.edge_length(p)).epsilon(0.12));
+    CHECK(linear->edge_length(p) == doctest::Approx(0.125 + 0.5 * p.x + 0.25 * p.y).epsilon(1e-6));
   }
+  CHECK(compiled("0.25")->edge_length({0.7, 0.1}) == 0.25);
+  CHECK(std::isinf(compiled("x < 0.25 ? 0.25 : 1/0")->edge_length({0.7, 0.1})));
 }
 
-TEST_CASE("the least length near a triangle is that of the smallest of fields, but not below the shortest") {
-  const auto fields = [] {
-    std::vector<std::unique_ptr<SizeField>> all;
-    all.push_back(std::make_unique<ExpressionField>("2"));
-    all.push_back(std::make_unique<UniformField>(3));
-    return all;
-  };
-  CHECK(SmallestField(fields()).least_near(kHalfSquare) == 2);
-  CHECK(SmallestField(fields(), 2.5).least_near(kHalfSquare) == 2.5);
-  CHECK(Counted().least_near(kHalfSquare) == 0);
+TEST_CASE("a point where an expression is no length is named, wherever the squares end") {
+  const auto field = compiled("x - 0.5");
+  CHECK(field->edge_length({0.75, 0.5}) == doctest::Approx(0.25));
+  CHECK_THROWS_AS((void)field->edge_length({0.25, 0.5}), InputError);
+  CHECK_THROWS_AS((void)field->edge_length({0.5, 0.5}), InputError);
+  CHECK_THROWS_AS((void)compiled("sqrt(x - 0.5)")->edge_length({0.25, 0.5}), InputError);
+  CHECK(compiled("max(0.1, sqrt(x - 0.5))")->edge_length({0.25, 0.5}) == doctest::Approx(0.1));
+}
+
+TEST_CASE("what an expression cannot fall below between the corners is known in short where it grows slowly") {
+  const auto slow = compiled("0.1 + 0.02*x"), fast = compiled("0.1 + 3*abs(x - 0.5)");
+  const std::array<Point, 3> small{{{0.5, 0.5}, {0.6, 0.5}, {0.5, 0.6}}};
+  CHECK(slow->least_between(small, 0.11) == 0.11);
+  CHECK(fast->least_between({{{0.4, 0.4}, {0.6, 0.4}, {0.6, 0.6}}}, 0.4) < 0.4);
 }
 
 TEST_CASE("a constant is known not to fall anywhere") {
-  CHECK(ExpressionField("0.25 + 0*x").least() == doctest::Approx(0.25));
-  CHECK(ExpressionField("max(x, 0.125)").least() == 0.125);
-  CHECK(ExpressionField("x").least() == 0);
+  CHECK(compiled("0.25 + 0*x")->least() == doctest::Approx(0.25));
+  CHECK(compiled("max(x, 0.125)")->least() == 0.125);
+  CHECK(compiled("x")->least() == 0);
   CHECK(UniformField(3).least() == 3);
 }
 
@@ -150,7 +160,7 @@ TEST_CASE("the smallest of fields falls where one of them does, but not below th
   const auto field = [](double shortest) {
     std::vector<std::unique_ptr<SizeField>> fields;
     fields.push_back(std::make_unique<UniformField>(0.5));
-    fields.push_back(std::make_unique<ExpressionField>("0.001 + abs(y - 0.3)"));
+    fields.push_back(compiled("0.001 + abs(y - 0.3)"));
     return SmallestField(std::move(fields), shortest);
   };
   CHECK(field(0).falls_below(kHalfSquare, 0.01));
@@ -173,8 +183,9 @@ TEST_CASE("a sampled field is searched between the points of its grid where it i
     return std::make_unique<ExpressionField>("0.001 + " + std::to_string(slope) + "*abs(y - 0.5031)");
   };
   const SampledField steep(crease(20), {{0, 0}, 1.0 / 64});
-  CHECK(steep.falls_below(kHalfSquare, 0.01));
-  CHECK(!steep.falls_below(kHalfSquare, 0.0005));
+  const std::array<Point, 3> across{{{-0.005, 0}, {1, 0}, {-0.005, 1}}};
+  CHECK(steep.falls_below(across, 0.01));
+  CHECK(!steep.falls_below(across, 0.0005));
 }
 
 TEST_CASE("a background mesh knows the lengths at its points and along its edges") {

@@ -148,7 +148,7 @@ TEST_CASE("depth and length of an expression have limits, and there are errors b
   for (int i = 0; i < 450; ++i) choices += "x < " + std::to_string(i) + " ? " + std::to_string(i) + " : ";
   for (int i = 0; i < 20'000; ++i) sum += "+1";
   CHECK(Expression(choices + "1000").at({300.5, 0}) == 301);
-  CHECK(Expression(choices + "1000").over({{300.5, 0}, {300.5, 0}}) == Interval{301, 301});
+  CHECK(Expression(choices + "1000").over({{300.5, 0}, {300.5, 0}}).value == Interval{301, 301});
   CHECK(Expression(sum).at({7, 0}) == 20'007);
   for (const char* part : {"(", "-", "sin(", "2^", "x<1?2:", "1?", "1+(2*", "min(1,"})
     CHECK_MESSAGE(mentions(construction_error(repeated(part, 9000)), "it is nested too deeply"), part);

@@ -15,7 +15,6 @@
 #include "damaged_grid.hpp"
 #include "driftmesh/id_vector.hpp"
 #include "mesh/merge_pieces.hpp"
-#include "sizing/field_of_threads.hpp"
 #include "verify/number_runs.hpp"
 
 // A mesh is found to have the same flaws in one piece and in several, however it is cut up: at one extreme every vertex
@@ -283,9 +282,7 @@ TEST_CASE("threads ask a field of sizes at once") {
   struct Field final : SizeField {
     double edge_length(const Point& p) const override { return p.x < 6 ? 1 : 3; }
   };
-  std::vector<std::unique_ptr<const SizeField>> fields;
-  for (int t = 0; t < 3; ++t) fields.push_back(std::make_unique<Field>());
-  const FieldOfThreads field(std::move(fields));
+  const Field field;
   std::mt19937 random(3);
   const std::vector<Mesh> pieces = cut(
       mesh, 4, [](std::size_t t) { return t / 60 % 4; }, random);

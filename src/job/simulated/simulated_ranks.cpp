@@ -9,11 +9,9 @@
 
 namespace driftmesh::job {
 
-std::unique_ptr<Refined> SimulatedRanks::refine(Order&& order, const Limits& limits, const SizeField* size,
-                                                Watch& watch) {
+std::unique_ptr<Refined> SimulatedRanks::refine(Order&& order, const Limits& limits, const SizeField*, Watch& watch) {
   RunPlan plan = std::move(order.plan);
-  const SizeSource source = size_of(order.sizing, order.rasters.open, size, order.pslg);
-  plan.bounds.size = source.field.get();
+  plan.bounds.size = order.size.get();
   std::vector<RankReport> reports;
   FactsBook book(plan.decomposition);
   SimulationObservers observers;
