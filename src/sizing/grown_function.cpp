@@ -34,11 +34,12 @@ double width(const Box& box) {
 }  // namespace
 
 GrownFunction::GrownFunction(std::shared_ptr<const SizeField> field, std::shared_ptr<const PlaneFunction> function,
-                             double gradation, const Box& domain, double narrow, double finest)
+                             double gradation, const Box& domain, const Accuracy& accuracy, double finest)
     : own_(function),
       steep_(std::make_shared<const SizeTree>(std::move(field), std::move(function), domain, finest,
-                                              SizeTree::Rules{.narrow = narrow, .steepest = gradation})),
+                                              SizeTree::Rules{.narrow = accuracy.narrow, .steepest = gradation})),
       gradation_(gradation),
+      search_(accuracy.search),
       domain_(domain),
       squares_{steep_->root()} {}
 
@@ -66,7 +67,7 @@ void GrownFunction::descend(const Point& p, const Square& square, Least& least) 
   if (!matters(square)) return;
   const Box part = part_in_domain(square);
   const double bound = square.least + gradation_ * std::sqrt(part.squared_distance(p));
-  if (bound >= least.length) return;
+  if (bound >= search_ * least.length) return;
   if (!square.is_divided) {
     least = {bound,
              {{std::clamp(p.x, part.low.x, part.high.x), std::clamp(p.y, part.low.y, part.high.y)}, square.least}};

@@ -17,10 +17,13 @@ namespace driftmesh {
 /// found by branch and bound, so that none is missed.
 class GrownFunction final : public PlaneFunction {
  public:
-  /// `function`: gives the lengths of `field`. `narrow`: width of the squares, relative to the least in them. `finest`:
-  /// see SizeTree.
+  struct Accuracy {
+    double narrow;      ///< width of the squares, relative to the least in them
+    double search = 1;  ///< values at points may be greater by this divisor, which makes the search for them short
+  };
+  /// `function`: gives the lengths of `field`. `finest`: see SizeTree.
   GrownFunction(std::shared_ptr<const SizeField> field, std::shared_ptr<const PlaneFunction> function, double gradation,
-                const Box& domain, double narrow, double finest);
+                const Box& domain, const Accuracy& accuracy, double finest);
 
   [[nodiscard]] double at(const Point& p) const override;
   [[nodiscard]] Variation over(const Box& box) const override;
@@ -47,6 +50,7 @@ class GrownFunction final : public PlaneFunction {
   std::shared_ptr<const PlaneFunction> own_;
   std::shared_ptr<const SizeTree> steep_;
   double gradation_;
+  double search_;
   Box domain_;
   std::vector<Square> squares_;  // those that matter somewhere
   Start start_{};                // a good one for a center

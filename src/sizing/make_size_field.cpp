@@ -11,6 +11,7 @@
 #include "pslg/triangle_files.hpp"
 #include "sizing/background_field.hpp"
 #include "sizing/combined_field.hpp"
+#include "sizing/exact_field.hpp"
 #include "sizing/expression_field.hpp"
 #include "sizing/gradation.hpp"
 #include "sizing/grown_function.hpp"
@@ -75,31 +76,19 @@ SizeSource area_field(BackgroundMesh mesh, const std::vector<double>& areas, std
   return graded_field(std::move(mesh), std::move(at_points), gradation);
 }
 
-/// Lengths at points alone.
-class ExactField final : public SizeField {
- public:
-  ExactField(std::shared_ptr<const SizeField> field, std::shared_ptr<const PlaneFunction> function)
-      : field_(std::move(field)), function_(std::move(function)) {}
-  [[nodiscard]] double edge_length(const Point& p) const override {
-    const double length = function_->at(p);
-    return length > 0 ? length : field_->edge_length(p);
-  }
-
- private:
-  std::shared_ptr<const SizeField> field_;
-  std::shared_ptr<const PlaneFunction> function_;
-};
-
 std::unique_ptr<SizeField> expression_field(const SizingOptions& options) {
-  constexpr double kNarrow = 0.5, kLittle = 0.1, kNarrowIfExact = 0.05;
+  constexpr double kNarrow = 0.5, kLittle = 0.1;
+  constexpr GrownFunction::Accuracy kExact{.narrow = 0.2, .search = 0.97};
   const auto field = std::make_shared<const ExpressionField>(options.expression, options.shortest, options.longest,
                                                              options.input, options.rasters);
   std::shared_ptr<const PlaneFunction> function = field->function();
   if (options.gradation)
     function = std::make_shared<const GrownFunction>(
         field, function, *options.gradation, options.domain,
-        options.exact ? kNarrowIfExact : std::min(kNarrow, kLittle / *options.gradation), options.spacing);
-  if (options.exact) return std::make_unique<ExactField>(field, function);
+
+        options.exact ? kExact : GrownFunction::Accuracy{std::min(kNarrow, kLittle / *options.gradation)},
+        options.spacing);
+  if (options.exact) return std::make_unique<ExactField>(field, function, options.domain);
   return std::make_unique<SizeTree>(field, function, options.domain, options.spacing, SizeTree::Rules{});
 }
 

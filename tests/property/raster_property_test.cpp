@@ -290,7 +290,7 @@ struct GridLimit {
 TEST_CASE("limited growth is the least of a grid, whatever was asked before, and known between corners") {
   Random random = seeded_generator("graded rules");
   int limited = 0, surely = 0;
-  for (std::int64_t tried = 0; more_cases(tried, 25, limited > 100 && surely > 100); ++tried) {
+  for (std::int64_t tried = 0; more_cases(tried, 12, limited > 100 && surely > 100); ++tried) {
     const Drawn drawn = random_basin(random);
     const NamedRasters rasters{{"depth", std::make_shared<const Raster>(drawn.grid())}};
     Pslg pslg = square(100);
@@ -318,8 +318,8 @@ TEST_CASE("limited growth is the least of a grid, whatever was asked before, and
       CAPTURE(p.x);
       CAPTURE(p.y);
       const double ungraded = plain.edge_length(p), most = std::min(limit.above(p), ungraded);
-      CHECK(exact->edge_length(p) <= most * (1 + 1e-9));
-      CHECK(exact->edge_length(p) >= limit.below(p) * 0.95);
+      CHECK(exact->edge_length(p) <= most / 0.97 * (1 + 1e-9));
+      CHECK(exact->edge_length(p) >= limit.below(p) * 0.9);
       CHECK(lengths.back() <= most * 1.16);
       CHECK(lengths.back() >= limit.below(p) * 0.75);
       limited += lengths.back() < 0.8 * ungraded ? 1 : 0;
@@ -336,7 +336,7 @@ TEST_CASE("limited growth is the least of a grid, whatever was asked before, and
         if (u + v > 1) u = 1 - u, v = 1 - v;
         const Point p{t[0].x + u * (t[1].x - t[0].x) + v * (t[2].x - t[0].x),
                       t[0].y + u * (t[1].y - t[0].y) + v * (t[2].y - t[0].y)};
-        CHECK(exact->edge_length(p) >= 0.8 * at_corners * (1 - 1e-6));
+        CHECK(exact->edge_length(p) >= 0.8 * 0.97 * at_corners * (1 - 1e-6));
       }
     }
   }

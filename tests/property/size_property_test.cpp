@@ -218,11 +218,11 @@ TEST_CASE("the growth of an expression is limited around every feature, however 
       double most = plain.edge_length(p);
       for (const Point& q : feature.points)
         most = std::min(most, plain.edge_length(q) + gradation * std::hypot(p.x - q.x, p.y - q.y));
-      CHECK(exact->edge_length(p) <= most * (1 + 1e-9));
+      CHECK(exact->edge_length(p) <= most / 0.97 * (1 + 1e-9));
       CHECK(field->edge_length(p) <= most * 1.16);
       const Point q = random_point(random);
-      const double from_q = exact->edge_length(q) - gradation * std::hypot(p.x - q.x, p.y - q.y);
-      CHECK(exact->edge_length(p) >= std::min(0.95 * plain.edge_length(p), from_q - 1e-9));
+      const double from_q = 0.97 * exact->edge_length(q) - gradation * std::hypot(p.x - q.x, p.y - q.y);
+      CHECK(exact->edge_length(p) >= std::min(0.9 * plain.edge_length(p), from_q - 1e-9));
       CHECK(field->edge_length(p) >= 0.75 * exact->edge_length(p));
     }
   }
@@ -352,7 +352,7 @@ std::string random_rule(Random& random) {
 TEST_CASE("in any outline no triangle is larger than a rule asks for, and meshes have hardly more than that takes") {
   Random random = seeded_generator("rules in outlines");
   double made = 0, needed = 0;
-  for (int i = 0; i < case_count(24); ++i) {
+  for (int i = 0; i < case_count(16); ++i) {
     const Pslg domain = random_outline(random);
     const std::string rule = random_rule(random);
     std::optional<double> gradation;

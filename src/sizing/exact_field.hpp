@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "driftmesh/size_field.hpp"
+#include "geometry/box.hpp"
+#include "sizing/plane_function.hpp"
+
+namespace driftmesh {
+
+/// The lengths of a function, each as the function gives it, for those who judge a mesh. The domain is divided into
+/// cells, in each of which the function is narrowed when it is first asked for. Several threads may ask at once.
+class ExactField final : public SizeField {
+ public:
+  /// `field`: throws where the function is not positive.
+  ExactField(std::shared_ptr<const SizeField> field, std::shared_ptr<const PlaneFunction> function, const Box& domain);
+  [[nodiscard]] double edge_length(const Point& p) const override;
+
+ private:
+  static constexpr int kCells = 256;  // along each side of the domain
+  struct Cell {
+    std::once_flag is_made;
+    std::shared_ptr<const PlaneFunction> function;
+  };
+  [[nodiscard]] const PlaneFunction& function_at(const Point& p) const;
+
+  std::shared_ptr<const SizeField> field_;
+  std::shared_ptr<const PlaneFunction> function_;
+  Box domain_;
+  mutable std::vector<Cell> cells_;
+};
+
+}  // namespace driftmesh
