@@ -25,10 +25,9 @@ double integrate_size(const SizeBounds& sizes, double twice_area_bound, const Co
   const auto [least, most] = std::minmax({at_a, at_b, at_c, in_middle});
   const double twice = 2 * signed_area(a, b, c);
   constexpr int kDeepest = 8, kDeepestSteep = 14;
-  constexpr double kSmooth = 1.6, kSteepFall = 0.6;
+  constexpr double kSmooth = 1.6;
   if (depth >= kDeepest || most <= kSmooth * least || twice < 4 * twice_area_of_edge(least)) {
-    const double low = kSteepFall * std::min(least, edge_of_twice_area(twice));
-    const bool falls = depth < kDeepestSteep && sizes.falls_below(corners, low);
+    const bool falls = depth < kDeepestSteep && sizes.falls_below(corners, std::min(least, edge_of_twice_area(twice)));
     const auto density = [&](double h) { return 1 / std::min(twice_area_of_edge(h), twice_area_bound); };
     const double mean = (density(at_a) + density(at_b) + density(at_c) + 9 * density(in_middle)) / 12;
     const double count = twice / kMeanArea * mean;
