@@ -14,37 +14,46 @@ constexpr double kMeanArea = 0.645;
 constexpr double kNotAsked = 0;  // no length
 
 /// How many triangles lengths ask for in a triangle, with their values at the corners: the integral of one over the
-/// mean area, by subdivision until lengths vary little or the pieces are about as small as the triangles asked for.
-/// Where lengths fall between the points that were looked at, so steeply that the mesh cannot follow, each piece
-/// counts at least like a triangle. No point is asked for twice.
+/// mean area, by bisection of the longest edge until lengths vary little or the pieces are about as small as the
+/// triangles asked for. Where lengths fall between the points that were looked at, so steeply that the mesh cannot
+/// follow, each piece counts at least like a triangle.
 double integrate_size(const SizeBounds& sizes, double twice_area_bound, const CornerPoints& corners,
                       const std::array<double, 3>& at_corners, int depth = 0, bool steep = false) {
-  const auto& [a, b, c] = corners;
-  const auto& [at_a, at_b, at_c] = at_corners;
-  const double in_middle = sizes.length_at(centroid(corners));
-  const auto [least, most] = std::minmax({at_a, at_b, at_c, in_middle});
-  const double twice = 2 * signed_area(a, b, c);
-  constexpr int kDeepest = 8, kDeepestSteep = 14;
+  constexpr int kDeepest = 16, kDeepestSteep = 28;
   constexpr double kSmooth = 1.6;
-  if (depth >= kDeepest || most <= kSmooth * least || twice < 4 * twice_area_of_edge(least)) {
-    const bool falls = depth < kDeepestSteep && sizes.falls_below(corners, std::min(least, edge_of_twice_area(twice)));
-    const auto density = [&](double h) { return 1 / std::min(twice_area_of_edge(h), twice_area_bound); };
-    const double mean = (density(at_a) + density(at_b) + density(at_c) + 9 * density(in_middle)) / 12;
-    const double count = twice / kMeanArea * mean;
-    if (!falls) return steep ? std::max(count, 1 / kMeanArea) : count;
-    steep = true;
+  const auto [least_corner, most_corner] = std::minmax({at_corners[0], at_corners[1], at_corners[2]});
+  const double twice = 2 * signed_area(corners[0], corners[1], corners[2]);
+  const auto is_small = [&](double least) { return depth >= kDeepest || twice < 4 * twice_area_of_edge(least); };
+  if (most_corner <= kSmooth * least_corner || is_small(least_corner)) {
+    const double in_middle = sizes.length_at(centroid(corners));
+    const double least = std::min(least_corner, in_middle), most = std::max(most_corner, in_middle);
+    if (most <= kSmooth * least || is_small(least)) {
+      const auto density = [&](double h) { return 1 / std::min(twice_area_of_edge(h), twice_area_bound); };
+      const double sum = density(at_corners[0]) + density(at_corners[1]) + density(at_corners[2]);
+      const double count = twice / kMeanArea * (sum + 9 * density(in_middle)) / 12;
+      const double edge = std::min(least, edge_of_twice_area(twice));
+      if (depth >= kDeepestSteep || !sizes.falls_below(corners, edge))
+        return steep ? std::max(count, 1 / kMeanArea) : count;
+      steep = true;
+    }
   }
-  const Point ab = midpoint(a, b), bc = midpoint(b, c), ca = midpoint(c, a);
-  const double at_ab = sizes.length_at(ab), at_bc = sizes.length_at(bc), at_ca = sizes.length_at(ca);
-  const auto in = [&](const CornerPoints& part, const std::array<double, 3>& at) {
+  std::size_t longest = 0;  // from this corner to the next
+  std::array<double, 3> squared;
+  for (std::size_t k = 0; k < 3; ++k) {
+    squared[k] = squared_distance(corners[k], corners[(k + 1) % 3]);
+    if (squared[k] > squared[longest]) longest = k;
+  }
+  const std::size_t other = (longest + 1) % 3;
+  const Point middle = midpoint(corners[longest], corners[other]);
+  const double at_middle = sizes.length_at(middle);
+  const auto in = [&](std::size_t replaced) {  // the half without this end of the edge
+    CornerPoints part = corners;
+    std::array<double, 3> at = at_corners;
+    part[replaced] = middle;
+    at[replaced] = at_middle;
     return integrate_size(sizes, twice_area_bound, part, at, depth + 1, steep);
   };
-  double sum = 0;
-  sum += in({a, ab, ca}, {at_a, at_ab, at_ca});
-  sum += in({ab, b, bc}, {at_ab, at_b, at_bc});
-  sum += in({ca, bc, c}, {at_ca, at_bc, at_c});
-  sum += in({bc, ca, ab}, {at_bc, at_ca, at_ab});
-  return sum;
+  return in(longest) + in(other);
 }
 
 }  // namespace
@@ -85,10 +94,10 @@ double BoundForecast::asked() const {
   return sum;
 }
 
-/// Pieces of a triangle are no smaller than a quarter of what the least length asks for unless the field varies there
+/// Pieces of a triangle are no smaller than half of what the least length asks for unless the field varies there
 /// without falling that low, and each counts for what it asks or for a triangle.
 double most_in_total(const Triangulation& mesh, const SizeBounds& sizes) {
-  constexpr double kPiecesPerTriangle = 5;
+  constexpr double kPiecesPerTriangle = 2.5;
   const double by_place = sizes.by_place() ? twice_area_of_edge(sizes.least_length()) : kNoBound;
   const double least = std::min(by_place, AreaBounds(mesh, sizes, kMarginOfRefinement).least_constant());
   double twice = 0;

@@ -8,7 +8,9 @@
 namespace driftmesh {
 namespace {
 
-constexpr double kFewSteps = 3;  // spacings
+constexpr double kTouch = 0x1p-40;         // spacings: a box that reaches so far beyond a grid line only touches it
+constexpr double kFewSteps = 3 + 0x1p-20;  // no count that boxes have by chance
+constexpr double kManySteps = 8 + 0x1p-20;
 
 /// As a count of spacings from the first point, no farther than the last one. Never falls as x rises, rounded as it is.
 double steps_to(double x, double first, double spacing, std::int64_t count) {
@@ -36,12 +38,23 @@ TiledGrid slopes_of(const TiledGrid& grid) {
   return slopes;
 }
 
+/// The points of a line of the grid around a stretch from `low` to `high`, in steps from the first point. Where a frame
+/// begins by some units in the last place elsewhere, they are the same.
+struct Around {
+  std::int64_t first, last;
+};
+Around points_around(double low, double high, std::int64_t count) {
+  return {std::min(static_cast<std::int64_t>(std::floor(low + kTouch)), count - 1),
+          std::min(static_cast<std::int64_t>(std::floor(high - kTouch)) + 1, count - 1)};
+}
+
 }  // namespace
 
 Raster::Raster(TiledGrid grid)
     : grid_(std::move(grid)),
       pyramid_(grid_),
-      largest_(pyramid_.over(grid_, 0, 0, frame().columns - 1, frame().rows - 1)) {}
+      largest_(pyramid_.over(grid_, 0, 0, frame().columns - 1, frame().rows - 1)),
+      rounding_(4 * kTouch * std::max(std::abs(largest_.low), std::abs(largest_.high))) {}
 
 double Raster::column_at(double x) const {
   return steps_to(x, frame().first.x, frame().dx, frame().columns);
@@ -68,10 +81,10 @@ double Raster::at(const Point& p) const {
 Extent Raster::over(const Box& box) const {
   const std::array<double, 4> steps{column_at(box.low.x), row_at(box.low.y), column_at(box.high.x), row_at(box.high.y)};
   if (steps[2] - steps[0] <= kFewSteps && steps[3] - steps[1] <= kFewSteps) return exact_over(steps);
-  const auto first_column = static_cast<std::int64_t>(steps[0]), first_row = static_cast<std::int64_t>(steps[1]);
-  const auto last_column = std::min(static_cast<std::int64_t>(steps[2]) + 1, frame().columns - 1);
-  const auto last_row = std::min(static_cast<std::int64_t>(steps[3]) + 1, frame().rows - 1);
-  return pyramid_.over(grid_, first_column, first_row, last_column, last_row);
+  const Around i = points_around(steps[0], steps[2], frame().columns),
+               j = points_around(steps[1], steps[3], frame().rows);
+  const Extent found = pyramid_.over(grid_, i.first, j.first, i.last, j.last);
+  return {std::max(found.low - rounding_, largest_.low), std::min(found.high + rounding_, largest_.high)};
 }
 
 /// On a rectangle within four points of the grid, a bilinear function is extreme at corners.
@@ -85,23 +98,23 @@ Extent Raster::exact_over(const std::array<double, 4>& steps) const {
       const double here = value(u, v);
       found = {std::min(found.low, here), std::max(found.high, here)};
     }
-  const double rounding = 0x1p-48 * std::max(std::abs(largest_.low), std::abs(largest_.high));
-  return {std::max(found.low - rounding, largest_.low), std::min(found.high + rounding, largest_.high)};
+  return {std::max(found.low - rounding_, largest_.low), std::min(found.high + rounding_, largest_.high)};
 }
 
 /// Within four points of the grid, slopes in one direction are linear in the other.
 Raster::Slopes Raster::slopes_over(const Box& box) const {
-  constexpr double kMost = 8;  // spacings
   constexpr double kFar = std::numeric_limits<double>::infinity();
   const std::array<double, 4> steps{column_at(box.low.x), row_at(box.low.y), column_at(box.high.x), row_at(box.high.y)};
-  if (!(steps[2] - steps[0] <= kMost && steps[3] - steps[1] <= kMost)) return {{-kFar, kFar}, {-kFar, kFar}};
-  const auto i0 = static_cast<std::int64_t>(steps[0]), j0 = static_cast<std::int64_t>(steps[1]);
-  const auto i1 = std::min(static_cast<std::int64_t>(steps[2]) + 1, frame().columns - 1);
-  const auto j1 = std::min(static_cast<std::int64_t>(steps[3]) + 1, frame().rows - 1);
+  if (!(steps[2] - steps[0] <= kManySteps && steps[3] - steps[1] <= kManySteps)) return {{-kFar, kFar}, {-kFar, kFar}};
+  const auto [i0, i1] = points_around(steps[0], steps[2], frame().columns);
+  const auto [j0, j1] = points_around(steps[1], steps[3], frame().rows);
   Extent rises{0, 0}, climbs{0, 0};  // outside of the grid, values do not change
-  const bool inside = box.low.x >= frame().first.x && box.low.y >= frame().first.y && i1 - i0 >= 1 && j1 - j0 >= 1 &&
-                      steps[2] < static_cast<double>(frame().columns - 1) &&
-                      steps[3] < static_cast<double>(frame().rows - 1);
+  const auto within = [](double low, double high, double first, double spacing, std::int64_t count) {
+    return low - first >= -kTouch * spacing && high - first <= (static_cast<double>(count - 1) + kTouch) * spacing;
+  };
+  const bool inside = i1 > i0 && j1 > j0 &&
+                      within(box.low.x, box.high.x, frame().first.x, frame().dx, frame().columns) &&
+                      within(box.low.y, box.high.y, frame().first.y, frame().dy, frame().rows);
   if (inside) rises = climbs = {kFar, -kFar};
   const auto extend = [](Extent& e, double by) { e = {std::min(e.low, by), std::max(e.high, by)}; };
   for (std::int64_t j = j0; j <= j1; ++j)

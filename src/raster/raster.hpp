@@ -28,8 +28,8 @@ class Raster {
   struct Slopes {
     Extent in_x, in_y;
   };
-  /// Hold all slopes of at() between points of a box, exactly if it extends over few points of the grid; infinite for
-  /// larger boxes.
+  /// Hold all slopes of at() between points of a box that are not closer to its border than rounding could move a line
+  /// of the grid, exactly if it extends over few points of the grid; infinite for larger boxes.
   [[nodiscard]] Slopes slopes_over(const Box& box) const;
 
   /// The slope of the values: the length of the gradient, per unit of length of the coordinates. At points of the grid
@@ -45,7 +45,8 @@ class Raster {
 
   TiledGrid grid_;
   ValuePyramid pyramid_;
-  Extent largest_;  // largest over all values
+  Extent largest_;   // of all values
+  double rounding_;  // of values between points of the grid, and of where these are
   mutable std::once_flag has_slope_;
   mutable std::shared_ptr<const Raster> slope_;
 };

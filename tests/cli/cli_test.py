@@ -113,8 +113,8 @@ class Pipeline(Cli):
         self.succeed("mesh", "island.poly", "--size", "0.05 + 0.3 * hypot(max(1-x, x-2, 0), max(1-y, y-2, 0))", "-n", "6",
                      "-o", "formula.vtu", "--json", "formula.json")
         formula = json.loads((self.folder / "formula.json").read_text())
-        self.assertEqual(run["mesh"]["triangles"], formula["mesh"]["triangles"])
-        self.assertAlmostEqual(run["work"]["forecast_triangles"], formula["work"]["forecast_triangles"], places=3)
+        for kind, number in ("mesh", "triangles"), ("work", "forecast_triangles"):  # bounds on a formula differ a bit
+            self.assertAlmostEqual(run[kind][number] / formula[kind][number], 1, delta=0.02)
         self.assertLess(abs(run["work"]["forecast_triangles"] / run["mesh"]["triangles"] - 1), 0.3)
         result = self.on_ranks(2, "mesh", "island.poly", *size, "-n", "6", "-o", "ranks.pvtu")
         self.assertEqual(result.returncode, 0, result.stderr)

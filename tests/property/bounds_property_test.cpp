@@ -67,7 +67,8 @@ constexpr Kind kKinds[] = {
 /// What the verifier says of a mesh by the bounds of the request, in words; empty if it accepts the mesh.
 std::string verdict(const Mesh& mesh, const Pslg& pslg, const job::Request& request) {
   const SizeSource size = job::size_of(request.sizing, {}, nullptr, pslg);
-  const VerifyOptions options{.min_angle = request.bounds.angle, .plain = request.bounds, .size = size.field.get()};
+  VerifyOptions options{.min_angle = request.bounds.angle, .plain = request.bounds, .size = size.field.get()};
+  options.size_is_compiled = true;
   const VerifyReport report = verify(mesh, pslg, options);
   return report.accepted() ? "" : report_text(report, options);
 }

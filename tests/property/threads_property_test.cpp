@@ -158,6 +158,7 @@ class Case {
     options.plain.area = bounds_.plain.area;
     options.plain.region_areas = false;
     options.size = bounds_.size;
+    options.size_is_compiled = true;
     const VerifyReport report = verify(assembly.piece(input_).mesh, input_, options);
     CAPTURE(presplit);
     CHECK_MESSAGE(report.accepted(), report_text(report, options));
