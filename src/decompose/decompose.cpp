@@ -21,6 +21,10 @@ namespace {
 
 /// A decomposition with a larger load than this is made again by grouping smaller pieces.
 constexpr double kFairLoad = 1.45;
+/// The same for many subdomains whose work is sampled: samples scatter, and the balance of a run does not depend on one
+/// of many.
+constexpr double kFairOfMany = 1.7;
+constexpr std::int32_t kMany = 32;
 /// Samples of work.
 constexpr double kSamplesPerSubdomain = 60;
 
@@ -129,6 +133,8 @@ double largest_load(const Decomposition& d) {
 }
 
 Decomposition cut_evenly(const Domain& domain, const DecomposeOptions& options) {
+  const bool is_sampled = !may_smooth(domain, options);
+  const double fair = is_sampled && options.subdomains >= kMany ? kFairOfMany : kFairLoad;
   Decomposition best;
   double load = kNoBound;
   for (const Attempt& attempt : kAttempts) {
@@ -137,7 +143,7 @@ Decomposition cut_evenly(const Domain& domain, const DecomposeOptions& options) 
     if (of_found >= load) continue;
     best = std::move(found);
     load = of_found;
-    if (options.skew > 0 || load <= kFairLoad) break;
+    if (options.skew > 0 || load <= fair) break;
   }
   return best;
 }

@@ -56,21 +56,17 @@ WorkSamples sample_detailed(const Triangulation& mesh, const QualityBounds& boun
   return samples;
 }
 
-/// The samples whose ray to the right can meet an edge between two values of y.
-std::span<const WorkSample> between(std::span<const WorkSample> samples, double low, double high) {
-  const auto below = [](const WorkSample& s, double y) { return s.at.y < y; };
-  const auto first = std::lower_bound(samples.begin(), samples.end(), low, below);
-  const auto last = std::lower_bound(first, samples.end(), high, below);
-  return {first, last};
-}
-
+/// For the samples whose ray to the right meets the edge.
 template <class Visit>
 void for_each_crossing(std::span<const WorkSample> samples, const Point& a, const Point& b, Visit&& visit) {
   const bool up = a.y < b.y;
   const Point &low = up ? a : b, &high = up ? b : a;
   const double dx = high.x - low.x, dy = high.y - low.y;
-  for (const WorkSample& s : between(samples, low.y, high.y))
-    if (dx * (s.at.y - low.y) > (s.at.x - low.x) * dy) visit(s, up);
+  const auto below = [](const WorkSample& s, double y) { return s.at.y < y; };
+  // Few samples, if any, lie between the ends of most edges.
+  for (auto s = std::lower_bound(samples.begin(), samples.end(), low.y, below); s != samples.end() && s->at.y < high.y;
+       ++s)
+    if (dx * (s->at.y - low.y) > (s->at.x - low.x) * dy) visit(*s, up);
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "geometry/triangle_geometry.hpp"
-#include "sizing/nearest_in_square.hpp"
 
 namespace driftmesh {
 namespace {
@@ -43,6 +42,13 @@ GrownFunction::GrownFunction(std::shared_ptr<const SizeField> field, std::shared
       domain_(domain),
       squares_{steep_->root()} {}
 
+GrownFunction::GrownFunction(const GrownFunction& other, std::shared_ptr<const PlaneFunction> own)
+    : own_(std::move(own)),
+      steep_(other.steep_),
+      gradation_(other.gradation_),
+      search_(other.search_),
+      domain_(other.domain_) {}
+
 Box GrownFunction::part_in_domain(const Square& square) const {
   return {{std::max(square.box.low.x, domain_.low.x), std::max(square.box.low.y, domain_.low.y)},
           {std::min(square.box.high.x, domain_.high.x), std::min(square.box.high.y, domain_.high.y)}};
@@ -73,15 +79,17 @@ void GrownFunction::descend(const Point& p, const Square& square, Least& least) 
              {{std::clamp(p.x, part.low.x, part.high.x), std::clamp(p.y, part.low.y, part.high.y)}, square.least}};
     return;
   }
-  const std::array<Square, 4> quarters = steep_->quarters(square);
+  const SizeTree::Steep quarters = steep_->steep_quarters(square);
   std::array<std::pair<double, const Square*>, 4> order;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const double here = quarters[k].least + gradation_ * std::sqrt(quarters[k].box.squared_distance(p));
-    std::size_t place = k;
+  std::size_t count = 0;
+  for (const Square& quarter : quarters) {
+    const double here = quarter.least + gradation_ * std::sqrt(quarter.box.squared_distance(p));
+    if (here >= search_ * least.length) continue;
+    std::size_t place = count++;
     for (; place > 0 && order[place - 1].first > here; --place) order[place] = order[place - 1];
-    order[place] = {here, &quarters[k]};
+    order[place] = {here, &quarter};
   }
-  for (const auto& [here, quarter] : order) descend(p, *quarter, least);
+  for (std::size_t k = 0; k < count; ++k) descend(p, *order[k].second, least);
 }
 
 // ---- Over boxes ----
@@ -91,33 +99,32 @@ double GrownFunction::most_from(const Start& start, const Point& p) const {
 }
 
 std::shared_ptr<const PlaneFunction> GrownFunction::within(const Box& box) const {
-  auto found = std::make_shared<GrownFunction>(*this);
-  if (auto own = own_->within(box); own != nullptr) found->own_ = std::move(own);
+  auto own_within = own_->within(box);
+  const std::shared_ptr<GrownFunction> found(
+      new GrownFunction(*this, own_within != nullptr ? std::move(own_within) : own_));
   const Point center = box.center();
   Least least{most_from(start_, center), start_};
   for (const Square& square : squares_) descend(center, square, least);
   found->start_ = least.from;
   const Interval own = found->own_->over(box).value;
   const double most = own.undefined || !(own.high > 0) ? kUnlimited : own.high;
-  found->squares_.clear();
   const std::array<Point, 4> corners = NearestInSquare::corners_of(box);
   std::array<double, 4> rival;
   rival.fill(most);
   if (least.length < most)
     for (std::size_t k = 0; k < 4; ++k) rival[k] = most_from(found->start_, corners[k]) * kHardlyMore;
   const NearestInSquare near(box, gradation_, rival);
-  std::vector<Square> open(squares_.rbegin(), squares_.rend());
-  while (!open.empty()) {
-    const Square square = open.back();
-    open.pop_back();
-    if (!matters(square)) continue;
-    if (!near.needs(square.least, part_in_domain(square))) continue;
-    if (square.is_divided && width(square.box) > kFine * width(box))
-      for (const Square& quarter : steep_->quarters(square)) open.push_back(quarter);
-    else
-      found->squares_.push_back(square);
-  }
+  for (const Square& square : squares_) found->keep(square, near, kFine * width(box));
   return found;
+}
+
+/// Of a square, the parts that may be nearest, no wider than `fine` where they are divided.
+void GrownFunction::keep(const Square& square, const NearestInSquare& near, double fine) {
+  if (!matters(square) || !near.needs(square.least, part_in_domain(square))) return;
+  if (square.is_divided && width(square.box) > fine)
+    for (const Square& quarter : steep_->steep_quarters(square)) keep(quarter, near, fine);
+  else
+    squares_.push_back(square);
 }
 
 Variation GrownFunction::over(const Box& box) const {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "sizing/nearest_in_square.hpp"
 #include "sizing/plane_function.hpp"
 #include "sizing/size_tree.hpp"
 
@@ -42,8 +43,11 @@ class GrownFunction final : public PlaneFunction {
     Start from;
   };
 
+  /// The same with another own function, and no squares.
+  GrownFunction(const GrownFunction& other, std::shared_ptr<const PlaneFunction> own);
   [[nodiscard]] Box part_in_domain(const Square& square) const;
   [[nodiscard]] bool matters(const Square& square) const;
+  void keep(const Square& square, const NearestInSquare& near, double fine);
   void descend(const Point& p, const Square& square, Least& least) const;
   [[nodiscard]] double most_from(const Start& start, const Point& p) const;
 

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "base/mix.hpp"
-
 namespace driftmesh {
 namespace {
 
@@ -65,18 +63,31 @@ struct SizeTree::Node {
   }
 };
 
+/// What quarters are compiled from, as long as one of them is not.
+struct SizeTree::Source {
+  std::shared_ptr<const PlaneFunction> function;  // within the divided square
+  int left = 4;                                   // quarters to compile
+};
+
 struct SizeTree::Quarters {
   std::array<Node, 4> nodes;
-  std::shared_ptr<const PlaneFunction> function;  // within the divided square, until all quarters are compiled
-  int left = 4;
+  std::unique_ptr<Source> source;
+};
 
-  Quarters() = default;
-  Quarters(const Quarters&) = delete;
-  Quarters& operator=(const Quarters&) = delete;
-  ~Quarters() {
-    for (const Node& node : nodes)
-      if (const std::uintptr_t state = node.state.load(); state != 0 && !Node::is_leaf(state))
-        delete Node::quarters(state);
+/// Quarters of one part of the plane, next to each other in the order in which they are compiled, so that those around
+/// a place share lines of the cache.
+struct SizeTree::Shelf {
+  static constexpr std::size_t kBlock = 64;
+  std::mutex lock;
+  std::vector<std::unique_ptr<std::array<Quarters, kBlock>>> blocks;
+  std::size_t used = kBlock;  // of the last block
+
+  Quarters& next() {
+    if (used == kBlock) {
+      blocks.push_back(std::make_unique<std::array<Quarters, kBlock>>());
+      used = 0;
+    }
+    return (*blocks.back())[used++];
   }
 };
 
@@ -87,6 +98,7 @@ SizeTree::SizeTree(std::shared_ptr<const SizeField> field, std::shared_ptr<const
       finest_(finest),
       rules_(rules),
       top_(std::make_unique<Quarters>()),
+      shelves_(std::make_unique<std::array<Shelf, kShelves * kShelves>>()),
       directory_(std::size_t{1} << (2 * kDirectoryLevel)) {
   const double side = std::max({domain.high.x - domain.low.x, domain.high.y - domain.low.y, 0.0});
   // Squares of a grid through the origin, of which two by two cover the domain.
@@ -101,7 +113,7 @@ SizeTree::SizeTree(std::shared_ptr<const SizeField> field, std::shared_ptr<const
   const Variation all = function_->over(domain);
   least_ = all.value.undefined ? 0 : std::max(all.value.low, 0.0);
   steepest_ = all.steepest();
-  top_->function = function_;
+  top_->source = std::make_unique<Source>(Source{function_});
   const Box root = box_of({});
   top_->nodes[0].corners = {length_at(*function_, root.low), length_at(*function_, {root.high.x, root.low.y}),
                             length_at(*function_, {root.low.x, root.high.y}), length_at(*function_, root.high)};
@@ -137,13 +149,22 @@ inline std::uintptr_t SizeTree::compiled(Node& node, const Place& place, Quarter
   return state != 0 ? state : compile(node, place, around);
 }
 
+/// Of all quarters of a square. Places near each other have the same, and many are between two that share one.
+SizeTree::Shelf& SizeTree::shelf_of(const Place& place) const {
+  constexpr int kLevel = 6;
+  const int finer = std::max(place.level - kLevel, 1);
+  return (*shelves_)[(place.j >> finer) % kShelves * kShelves + (place.i >> finer) % kShelves];
+}
+
 /// `around`: with the node.
 std::uintptr_t SizeTree::compile(Node& node, const Place& place, Quarters& around) const {
-  const std::lock_guard lock(locks_[mix(reinterpret_cast<std::uintptr_t>(&around)) % locks_.size()]);
+  Shelf& shelf = shelf_of(place);
+  const std::lock_guard lock(shelf.lock);
   if (const std::uintptr_t state = node.state.load(std::memory_order_relaxed); state != 0) return state;
   const Box box = box_of(place);
   const double width = power_of_two(-place.level);
-  const Variation found = around.function->over(box);
+  const PlaneFunction& function = *around.source->function;
+  const Variation found = function.over(box);
   const double low = found.value.low / width_, high = found.value.high / width_;
   const bool undefined = found.value.undefined;
   const auto [least_corner, most_corner] = std::minmax_element(node.corners.begin(), node.corners.end());
@@ -172,7 +193,7 @@ std::uintptr_t SizeTree::compile(Node& node, const Place& place, Quarters& aroun
     float known = std::numeric_limits<float>::infinity();
     for (const float length : node.corners)
       if (length > 0) known = std::min(known, length);
-    if (const float middle = length_at(*around.function, box.center()); middle > 0) known = std::min(known, middle);
+    if (const float middle = length_at(function, box.center()); middle > 0) known = std::min(known, middle);
     node.least = known;
     state = Node::leaf(kUnknown, place.level);
   }
@@ -181,49 +202,58 @@ std::uintptr_t SizeTree::compile(Node& node, const Place& place, Quarters& aroun
     node.state.store(state, std::memory_order_release);
   } else {
     node.least = rounded_down(least);
-    std::shared_ptr<const PlaneFunction> function = around.function->within(box);
-    divide(node, place, function != nullptr ? std::move(function) : around.function);
+    std::shared_ptr<const PlaneFunction> within = function.within(box);
+    divide(node, place, within != nullptr ? std::move(within) : around.source->function, shelf.next());
     state = node.state.load(std::memory_order_relaxed);
   }
-  if (--around.left == 0) around.function.reset();
+  if (--around.source->left == 0) around.source.reset();
   return state;
 }
 
-void SizeTree::divide(Node& node, const Place& place, std::shared_ptr<const PlaneFunction> function) const {
-  auto quarters = std::make_unique<Quarters>();
+void SizeTree::divide(Node& node, const Place& place, std::shared_ptr<const PlaneFunction> function,
+                      Quarters& quarters) const {
   const Box box = box_of(place);
   const Point middle = box.center();
   const auto at = [&](double x, double y) { return length_at(*function, {x, y}); };
   const float south = at(middle.x, box.low.y), west = at(box.low.x, middle.y), center = at(middle.x, middle.y),
               east = at(box.high.x, middle.y), north = at(middle.x, box.high.y);
   const auto& c = node.corners;
-  quarters->nodes[0].corners = {c[0], south, west, center};
-  quarters->nodes[1].corners = {south, c[1], center, east};
-  quarters->nodes[2].corners = {west, center, c[2], north};
-  quarters->nodes[3].corners = {center, east, north, c[3]};
-  quarters->function = std::move(function);
-  node.state.store(reinterpret_cast<std::uintptr_t>(quarters.release()), std::memory_order_release);
+  quarters.nodes[0].corners = {c[0], south, west, center};
+  quarters.nodes[1].corners = {south, c[1], center, east};
+  quarters.nodes[2].corners = {west, center, c[2], north};
+  quarters.nodes[3].corners = {center, east, north, c[3]};
+  quarters.source = std::make_unique<Source>(Source{std::move(function)});
+  node.state.store(reinterpret_cast<std::uintptr_t>(&quarters), std::memory_order_release);
 }
 
 // ---- Squares ----
 
-SizeTree::Square SizeTree::square_of(Node& node, const Place& place, Quarters& around) const {
-  const std::uintptr_t state = compiled(node, place, around);
-  Square square{box_of(place), width_ * node.least, !Node::is_leaf(state), false, &node, place.level, place.i, place.j};
-  square.is_steep = !square.is_divided && Node::kind(state) != kSmooth;
-  return square;
+SizeTree::Square SizeTree::square_of(Node& node, const Place& place, const Box& box, std::uintptr_t state) const {
+  const bool is_leaf = Node::is_leaf(state);
+  return {box,   width_ * node.least, !is_leaf, is_leaf && Node::kind(state) != kSmooth,
+          &node, place.level,         place.i,  place.j};
 }
 
 SizeTree::Square SizeTree::root() const {
-  return square_of(top_->nodes[0], {}, *top_);
+  Node& node = top_->nodes[0];
+  return square_of(node, {}, box_of({}), compiled(node, {}, *top_));
 }
 
-std::array<SizeTree::Square, 4> SizeTree::quarters(const Square& square) const {
+SizeTree::Steep SizeTree::steep_quarters(const Square& square) const {
   Quarters& parts = *Node::quarters(static_cast<Node*>(square.node)->state.load(std::memory_order_acquire));
-  std::array<Square, 4> all;
-  for (std::size_t k = 0; k < 4; ++k)
-    all[k] = square_of(parts.nodes[k], {2 * square.i + k % 2, 2 * square.j + k / 2, square.level + 1}, parts);
-  return all;
+  const Point middle = square.box.center();  // exact: of squares of a grid
+  Steep found;
+  for (std::size_t k = 0; k < 4; ++k) {
+    Node& node = parts.nodes[k];
+    const Place place{2 * square.i + k % 2, 2 * square.j + k / 2, square.level + 1};
+    const std::uintptr_t state = compiled(node, place, parts);
+    if (Node::is_leaf(state) && Node::kind(state) == kSmooth) continue;
+    const Box& all = square.box;
+    const Box box{{k % 2 == 0 ? all.low.x : middle.x, k / 2 == 0 ? all.low.y : middle.y},
+                  {k % 2 == 0 ? middle.x : all.high.x, k / 2 == 0 ? middle.y : all.high.y}};
+    found.squares[found.count++] = square_of(node, place, box, state);
+  }
+  return found;
 }
 
 // ---- At a point ----

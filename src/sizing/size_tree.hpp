@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include "driftmesh/size_field.hpp"
@@ -57,25 +56,33 @@ class SizeTree final : public SizeField {
 
   /// A square of the tree.
   struct Square {
-    Box box{};
-    double least = 0;  // no length in it is less
-    bool is_divided = false;
-    bool is_steep = false;  // not divided, and not smooth
-    void* node = nullptr;   // of the tree
-    int level = 0;
-    std::uint64_t i = 0, j = 0;
+    Box box;
+    double least;  // no length in it is less
+    bool is_divided;
+    bool is_steep;  // not divided, and not smooth
+    void* node;     // of the tree
+    int level;
+    std::uint64_t i, j;
   };
   /// Has the domain in it.
   [[nodiscard]] Square root() const;
-  /// Of a square that is divided.
-  [[nodiscard]] std::array<Square, 4> quarters(const Square& square) const;
+  /// The quarters of a square that is divided, without those that are smooth.
+  struct Steep {
+    std::array<Square, 4> squares;
+    std::size_t count = 0;
+    [[nodiscard]] const Square* begin() const { return squares.data(); }
+    [[nodiscard]] const Square* end() const { return squares.data() + count; }
+  };
+  [[nodiscard]] Steep steep_quarters(const Square& square) const;
 
   /// How many squares were compiled that are not divided.
   [[nodiscard]] std::size_t leaves() const { return leaves_.load(std::memory_order_relaxed); }
 
  private:
   struct Node;
+  struct Source;
   struct Quarters;
+  struct Shelf;
   enum Kind : std::uint8_t { kSmooth, kSteep, kUnknown };
   /// A square of the grid that divides the root `level` times.
   struct Place {
@@ -89,14 +96,16 @@ class SizeTree final : public SizeField {
   };
   struct Question;
   static constexpr int kDeepest = 40;
+  static constexpr std::size_t kShelves = 8;  // along each side of a pattern
 
-  [[nodiscard]] Square square_of(Node& node, const Place& place, Quarters& around) const;
+  [[nodiscard]] Square square_of(Node& node, const Place& place, const Box& box, std::uintptr_t state) const;
   [[nodiscard]] bool find_index(const Point& p, std::uint64_t& i, std::uint64_t& j) const;
   [[nodiscard]] Found leaf_at(std::uint64_t i, std::uint64_t j, int deepest) const;
   [[nodiscard]] Box box_of(const Place& place) const;
   [[nodiscard]] std::uintptr_t compiled(Node& node, const Place& place, Quarters& around) const;
   [[nodiscard]] std::uintptr_t compile(Node& node, const Place& place, Quarters& around) const;
-  void divide(Node& node, const Place& place, std::shared_ptr<const PlaneFunction> function) const;
+  void divide(Node& node, const Place& place, std::shared_ptr<const PlaneFunction> function, Quarters& quarters) const;
+  [[nodiscard]] Shelf& shelf_of(const Place& place) const;
   [[nodiscard]] float length_at(const PlaneFunction& function, const Point& p) const;
 
   [[nodiscard]] bool is_below(const Question& question, const Node& node, const Place& place,
@@ -112,10 +121,10 @@ class SizeTree final : public SizeField {
   double width_ = 0, to_index_ = 0;
   int deepest_ = kDeepest;
   double least_ = 0;
-  double steepest_ = 0;                                // of the function in the domain
-  std::unique_ptr<Quarters> top_;                      // has the root alone
+  double steepest_ = 0;            // of the function in the domain
+  std::unique_ptr<Quarters> top_;  // has the root alone
+  std::unique_ptr<std::array<Shelf, kShelves * kShelves>> shelves_;
   mutable std::vector<std::atomic<Node*>> directory_;  // nodes at kDirectoryLevel, or leaves above
-  mutable std::array<std::mutex, 64> locks_;
   mutable std::atomic<std::size_t> leaves_{0};
 };
 
