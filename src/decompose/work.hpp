@@ -2,12 +2,10 @@
 
 #include <cstdint>
 
+#include "mesh/bound_forecast.hpp"
 #include "mesh/size_bound.hpp"
 
 namespace driftmesh {
-
-/// The number of triangles that refinement makes, relative to area / bound (measured at 20 degrees).
-inline constexpr double kTrianglesPerBound = 1.55;
 
 /// The density of work, per area, in the region with this label. 1 everywhere if there is no bound on size; if only
 /// some regions have one, the others count as a tenth of the least dense of these.

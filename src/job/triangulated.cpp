@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/words.hpp"
-#include "decompose/work.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "job/value.hpp"
+#include "mesh/area_for_count.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/domain_warnings.hpp"
@@ -21,23 +21,27 @@
 namespace driftmesh::job {
 namespace {
 
-double area_of(const Triangulation& mesh) {
-  double area = 0;
-  for (const TriangleId t : ids_of(mesh.triangles))
-    if (mesh.triangles[t].alive()) area += signed_area(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
-  return area;
-}
-
-double area_bound_of(const Request::Bounds& bounds, const Triangulation& mesh, std::int32_t ranks) {
-  const double triangles = bounds.triangles > 0 ? bounds.triangles : bounds.triangles_per_rank * ranks;
-  return triangles > 0 ? kTrianglesPerBound * area_of(mesh) / triangles : bounds.area;
+/// How many triangles are wanted; 0: it is not said.
+double wanted_triangles(const Request::Bounds& bounds, std::int32_t ranks) {
+  return bounds.triangles > 0 ? bounds.triangles : bounds.triangles_per_rank * ranks;
 }
 
 QualityBounds bounds_of(const Request& request, const Domain& domain, const Triangulation& mesh, std::int32_t ranks) {
   QualityBounds bounds{.min_angle = request.bounds.angle, .plain = request.bounds, .size = domain.size.get()};
-  bounds.plain.area = area_bound_of(request.bounds, mesh, ranks);
   if (bounds.plain.region_areas) bounds.region_max_area = areas_by_region(domain.pslg);
+  if (const double count = wanted_triangles(request.bounds, ranks); count > 0)
+    bounds.plain.area = area_for_count(mesh, bounds, count);
   return bounds;
+}
+
+/// Where what is asked for besides takes more triangles than are wanted.
+std::vector<std::string> count_warnings(double wanted, double forecast) {
+  constexpr double kMuch = 1.1;
+  if (wanted == 0 || forecast <= kMuch * wanted) return {};
+  return {
+      fmt::format("{} triangles are wanted, but angles, sizes and the details of the input take about {}; allow "
+                  "smaller angles, ask for greater lengths, or have details removed (simplify)",
+                  estimate_words(wanted), estimate_words(forecast))};
 }
 
 /// One place where the background mesh does not say what size is asked for, if there is one.
@@ -106,7 +110,10 @@ Triangulated triangulate_domain(const Request& request, const Domain& domain, st
     result.cut = cut == Cut::kAlways || (if_large && is_large(result.mesh, result.forecast));
     result.acute_corners =
         prepare_corners(result.mesh, result.cut ? CornerUse{} : CornerUse{request.bounds.angle, false});
+    if (result.acute_corners > 0 && wanted_triangles(request.bounds, ranks) > 0)
+      result.bounds = bounds_of(request, domain, result.mesh, ranks);
     if (!if_large || result.acute_corners > 0) count();
+    warn(request, count_warnings(wanted_triangles(request.bounds, ranks), result.forecast), watch);
     warn(request, narrow_warnings(result.mesh, result.bounds, result.forecast), watch);
   });
   return result;

@@ -45,6 +45,14 @@ double forecast_over_real(const std::string& name, const Pslg& pslg, double angl
   return record.forecast / real;
 }
 
+/// The number of triangles of a mesh that was to have so many, relative to that.
+double share_of_wanted(const Pslg& pslg, double wanted) {
+  job::Request request;
+  request.bounds.angle = 20;
+  request.bounds.triangles = wanted;
+  return static_cast<double>(made(pslg, request).record.triangles) / wanted;
+}
+
 /// Returns the ratio.
 double check_within(double factor, const std::string& name, const Pslg& pslg, double angle, double area = 0) {
   const double ratio = forecast_over_real(name, pslg, angle, area);
@@ -233,6 +241,21 @@ TEST_CASE("where bounds on area and details of the input both matter, the foreca
         const double area = 1.55 * alone.shape.total_area / (more * static_cast<double>(alone.triangles));
         check_within(more < 2 ? 1.4 : 1.2, g.words(), pslg, angle, area);
       }
+    }
+  }
+}
+
+TEST_CASE("a mesh has as many triangles as are wanted, within a few percent where the bound on area decides") {
+  for (const Generated& g : kGenerated) {
+    CAPTURE(g.words());
+    const Pslg pslg = generate(g.name, g.parameters);
+    const auto alone = static_cast<double>(record_of(pslg, 20).triangles);  // what the details ask for
+    for (const double times : {2.0, 5.0, 20.0}) {
+      const double share = share_of_wanted(pslg, times * alone);
+      std::printf("%-28s %4.0f times its details: %.3f of the triangles wanted\n", g.words().c_str(), times, share);
+      CAPTURE(times);
+      const double few = times * alone < 3000 ? 0.25 : 0;  // single triangles count
+      CHECK(std::fabs(share - 1) < std::max(few, times < 5 ? 0.13 : 0.05));
     }
   }
 }
