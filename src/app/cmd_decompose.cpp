@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iostream>
 #include <iterator>
 #include <memory>
 #include <string>
 
 #include "app/commands.hpp"
+#include "app/repair_view.hpp"
 #include "app/request_line.hpp"
 #include "app/run_files.hpp"
 #include "base/staged_files.hpp"
@@ -30,21 +30,6 @@ struct DecomposeCommand {
   std::string output;
   std::string picture;
   bool quiet = false;
-};
-
-/// Prints repairs and warnings unless quiet.
-class RepairView final : public job::Watch {
- public:
-  explicit RepairView(bool quiet) : quiet_(quiet) {}
-  void repaired(const RepairReport& repairs) override {
-    if (!quiet_) std::cerr << repairs.summary();
-  }
-  void warned(const std::string& warning) override {
-    if (!quiet_) std::cerr << "warning: " << warning << '\n';
-  }
-
- private:
-  bool quiet_;
 };
 
 job::Request request_of(const GivenKeys& given) {

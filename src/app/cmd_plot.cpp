@@ -1,18 +1,24 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/repair_view.hpp"
+#include "app/request_line.hpp"
 #include "app/run_files.hpp"
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
 #include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
+#include "job/files.hpp"
 #include "job/input_file.hpp"
+#include "job/make.hpp"
 #include "picture/plot.hpp"
+#include "picture/plot_sizes.hpp"
 
 namespace driftmesh::app {
 namespace {
@@ -38,10 +44,11 @@ struct PlotCommand {
   std::string output;
   PlotOptions plot;
   ReadOptions reading;
+  GivenKeys sizes;
 };
 
 // "1600x900"
-void read_size(const std::string& text, PlotOptions& plot) {
+void read_pixels(const std::string& text, PlotOptions& plot) {
   char rest = 0;
   if (std::sscanf(text.c_str(), "%dx%d%c", &plot.width, &plot.height, &rest) != 2)
     throw cli::UsageError("is '" + text + "'; write WIDTHxHEIGHT, such as 1600x900");
@@ -59,6 +66,42 @@ std::string title_of(const std::string& input) {
   return is_standard_stream(input) ? "standard input" : std::filesystem::path(input).filename().string();
 }
 
+job::Request request_of(const PlotCommand& command) {
+  job::Request request;
+  command.sizes.apply(request);
+  request.input.file = command.input;
+  const job::Request::Sizing& sizing = request.sizing;
+  int width = 0, height = 0;
+  char rest = 0;
+  if (std::sscanf(sizing.expression.c_str(), "%dx%d%c", &width, &height, &rest) == 2)
+    throw cli::UsageError("--size is '" + sizing.expression +
+                          "', but means lengths of edges; a picture has --pixels WxH");
+  if (sizing.expression.empty() && sizing.background.empty())
+    throw cli::UsageError("pictures of sizes need --size or --size-mesh");
+  return request;
+}
+
+DomainShape shape_of(const job::TriangulatedDomain& made) {
+  DomainShape shape;
+  const Triangulation& mesh = made.triangulated.mesh;
+  for (const TriangleId t : ids_of(mesh.triangles))
+    if (mesh.triangles[t].alive()) shape.triangles.push_back({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
+  const Pslg& pslg = made.domain.pslg;
+  for (const Pslg::Segment& s : pslg.segments) shape.segments.push_back({pslg.points[s.a], pslg.points[s.b]});
+  return shape;
+}
+
+void draw_sizes(const PlotCommand& command) {
+  const job::Request request = request_of(command);
+  FileRegistry files;
+  job::register_reads(request, job::kPlot, files);
+  register_picture(files, command.output, "--output");
+  RepairView view(false);
+  const job::TriangulatedDomain made = job::make_triangulated({request, job::kPlot, job::Given{}}, view);
+  const auto length_at = [&](const Point& p) { return made.domain.size->edge_length(p); };
+  plot_sizes(shape_of(made), length_at, command.output, command.plot);
+}
+
 void register_files(const PlotCommand& command) {
   FileRegistry files;
   if (holds_input(command.input))
@@ -69,11 +112,12 @@ void register_files(const PlotCommand& command) {
 }
 
 void run_plot(const cli::Call& call, PlotCommand& command) {
-  if (call.has("size") && call.has("width")) throw cli::UsageError("--size includes the width: leave out --width");
+  if (call.has("pixels") && call.has("width")) throw cli::UsageError("--pixels includes the width: leave out --width");
   const std::filesystem::path input(command.input);
   if (command.output.empty()) command.output = input.filename().replace_extension(".png").string();
   if (command.plot.title.empty()) command.plot.title = title_of(command.input);
   command.plot.name = command.input;
+  if (!command.sizes.items.empty()) return in_words_of_options(command.sizes, {}, [&] { draw_sizes(command); });
   register_files(command);
   if (holds_input(command.input))
     plot(read_input(command.input).pslg, command.output, command.plot);
@@ -82,7 +126,7 @@ void run_plot(const cli::Call& call, PlotCommand& command) {
 }
 
 std::vector<cli::Option> plot_options(PlotCommand& command) {
-  return {
+  std::vector<cli::Option> all{
       {.kind = cli::Option::Kind::kPositional,
        .name = "input",
        .value = "INPUT",
@@ -116,10 +160,10 @@ std::vector<cli::Option> plot_options(PlotCommand& command) {
        .help = "Width in pixels; the height follows",
        .standard = std::to_string(command.plot.width),
        .take = cli::into(command.plot.width, {100, 20'000})},
-      {.name = "size",
+      {.name = "pixels",
        .value = "WxH",
        .help = "Width and height in pixels, such as 1600x900",
-       .take = [&plot = command.plot](const std::string& text) { read_size(text, plot); }},
+       .take = [&plot = command.plot](const std::string& text) { read_pixels(text, plot); }},
       {.name = "box",
        .value = "X0,Y0,X1,Y1",
        .help = "Show only this part of the plane",
@@ -130,26 +174,32 @@ std::vector<cli::Option> plot_options(PlotCommand& command) {
        .standard = "the input's name",
        .take = cli::into(command.plot.title)},
       allow_outside_option(command.reading)};
+  std::ranges::move(key_options(job::kPlot, command.sizes, "Draw target edge lengths (as for driftmesh mesh)"),
+                    std::back_inserter(all));
+  return all;
 }
 
 }  // namespace
 
 cli::Command plot_command() {
   const auto command = std::make_shared<PlotCommand>();
-  return {.name = "plot",
-          .summary = "Draw a mesh or an input as PNG, SVG or PDF",
-          .options = plot_options(*command),
-          .notes =
-              "Where triangles are smaller than about two pixels, each pixel shows the worst angle of those in it, or "
-              "the mean "
-              "area of those around it; auto shows areas there, and angles otherwise.",
-          .examples = {"driftmesh plot bay.poly -o input.svg",
-                       "driftmesh plot bay.vtu --color area --box 380000,4180000,420000,4210000 -o bay.svg"},
-          .exit_codes = "0 done, 1 error, 2 wrong usage",
-          .run = [command](cli::Call& call) {
-            run_plot(call, *command);
-            return 0;
-          }};
+  return {
+      .name = "plot",
+      .summary = "Draw a mesh, an input or the sizes that are asked for as PNG, SVG or PDF",
+      .options = plot_options(*command),
+      .notes =
+          "Where triangles are smaller than about two pixels, each pixel shows the worst angle of those in it, or "
+          "the mean "
+          "area of those around it; auto shows areas there, and angles otherwise. With --size, colors show how long "
+          "edges are to be in the domain.",
+      .examples = {"driftmesh plot bay.poly -o input.svg",
+                   "driftmesh plot bay.poly --size \"20+0.1*distance()\" -o sizes.png",
+                   "driftmesh plot bay.vtu --color area --box 380000,4180000,420000,4210000 -o bay.svg"},
+      .exit_codes = "0 done, 1 error, 2 wrong usage",
+      .run = [command](cli::Call& call) {
+        run_plot(call, *command);
+        return 0;
+      }};
 }
 
 }  // namespace driftmesh::app

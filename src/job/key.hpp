@@ -33,6 +33,7 @@ enum EntryPoint : unsigned {
   kCheck = 4,       ///< driftmesh check, for the bounds
   kExperiment = 8,  ///< driftmesh run: a YAML file and --set
   kLibrary = 16,    ///< a program that uses the library
+  kPlot = 32,       ///< driftmesh plot, for sizes
 };
 using EntryPoints = unsigned;
 inline constexpr EntryPoints kMeshers = kMesh | kExperiment | kLibrary;

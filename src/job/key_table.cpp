@@ -40,27 +40,27 @@ Section input_section() {
            "A parameter of the generated domain, such as resolution=300", option("generate-with", "NAME=VALUE")),
        key("input.layers", &R::input, &R::Input::layers,
            "Of a file with several layers those to read, with commas between their names", option("layers", "NAMES"),
-           entry_points(kMesh | kDecompose | kCheck | kExperiment)),
+           entry_points(kMesh | kDecompose | kCheck | kExperiment | kPlot)),
        key("input.rasters", &R::input, &R::Input::rasters,
            "A raster, by a name that size expressions and depths use, such as depth=bathymetry.asc: an ESRI ASCII "
            "grid (.asc), or what GDAL reads (GeoTIFF, netCDF)",
-           of_files(), option("raster", "NAME=FILE"), entry_points(kMesh | kDecompose | kCheck | kExperiment)),
+           of_files(), option("raster", "NAME=FILE"), entry_points(kMesh | kDecompose | kCheck | kExperiment | kPlot)),
        key("input.snap", &R::input, &R::Input::snap,
            "Join vertices at most this far apart, and vertices with segments that near: closes gaps and slivers of the "
            "input. No vertex moves by more; the report has the largest move. 0: join nothing",
-           from(0), option("snap", "LENGTH"), entry_points(kMeshers | kDecompose | kCheck)),
+           from(0), option("snap", "LENGTH"), entry_points(kMeshers | kDecompose | kCheck | kPlot)),
        key("input.hull", &R::input, &R::Input::hull,
            "Make the convex hull of all vertices the outline: its edges become segments with marker 1 where there are "
            "none",
-           option("hull"), entry_points(kMeshers | kDecompose | kCheck)),
+           option("hull"), entry_points(kMeshers | kDecompose | kCheck | kPlot)),
        key("input.simplify", &R::input, &R::Input::simplify,
            "Remove points of lines where these then move by at most this length, and rings that fit into a square "
            "with this side; lines never cross. 0: keep all",
-           from(0), option("simplify", "LENGTH"), entry_points(kMeshers | kDecompose | kCheck)),
+           from(0), option("simplify", "LENGTH"), entry_points(kMeshers | kDecompose | kCheck | kPlot)),
        choice("input.holes", &R::input, &R::Input::holes, hole_rules,
               "What is a hole: points (areas with a hole point of the input), or nested (also every second ring of "
               "segments from the outside in, unless it has a region point)",
-              option("holes", "RULE"), entry_points(kMeshers | kDecompose | kCheck)),
+              option("holes", "RULE"), entry_points(kMeshers | kDecompose | kCheck | kPlot)),
        key("input.strict", &R::input, &R::Input::strict,
            "Whether warnings about the input are errors: flaws of polygons, segments outside the domain, regions that "
            "are not separated, rings that are neither holes nor regions",
@@ -74,7 +74,7 @@ Section input_section() {
 }
 
 Section triangle_section() {
-  constexpr EntryPoints kAll = kMeshers | kDecompose | kCheck;
+  constexpr EntryPoints kAll = kMeshers | kDecompose | kCheck, kSizes = (kAll & ~kLibrary) | kPlot;
   return {
       "Triangles (lengths and areas in the units of the input)",
       kAnywhere,
@@ -99,18 +99,18 @@ Section triangle_section() {
            "markers: \"0.1 + 0.02*sqrt(x^2 + y^2)\", \"5 + 0.1*distance(1, 2)\"; distance() is that to the nearest of "
            "all segments. A raster's name is its value, and slope(name) the length of its gradient: \"max(20, "
            "3*sqrt(9.81*depth))\". driftmesh config --functions lists the functions",
-           option("size", "EXPR"), entry_points(kAll & ~kLibrary)),
+           option("size", "EXPR"), entry_points(kSizes)),
        key("sizing.background", &R::sizing, &R::Sizing::background,
            "Target edge lengths from a background mesh: FILE.node and FILE.ele, with the length as the first "
            "attribute of each point, or FILE.area with an area bound for each triangle",
-           file(), option("size-mesh", "FILE"), entry_points(kAll & ~kLibrary)),
+           file(), option("size-mesh", "FILE"), entry_points(kSizes)),
        key("sizing.gradation", &R::sizing, &R::Sizing::gradation,
            "Limit on the growth of target edge lengths per unit of distance; 0.2 to 0.3 works well; 0: no limit",
-           from(0), option("gradation", "G"), entry_points(kAll & ~kLibrary)),
+           from(0), option("gradation", "G"), entry_points(kSizes)),
        key("sizing.min", &R::sizing, &R::Sizing::shortest, "Lower limit on target edge lengths", from(0),
-           option("size-min", "LENGTH"), entry_points(kAll & ~kLibrary)),
+           option("size-min", "LENGTH"), entry_points(kSizes)),
        key("sizing.max", &R::sizing, &R::Sizing::longest, "Upper limit on target edge lengths; 0: no limit", from(0),
-           option("size-max", "LENGTH"), entry_points(kAll & ~kLibrary)),
+           option("size-max", "LENGTH"), entry_points(kSizes)),
        key("sizing.resolution", &R::sizing, &R::Sizing::resolution,
            "Where only values at points tell the size, they are taken on a grid of this many squares along the longer "
            "side of the domain: no feature that fills a square is missed",

@@ -147,6 +147,13 @@ std::unique_ptr<Refined> follow(Place& place, Watch& watch) {
   return obey(place, place.share({}), nullptr, watch);
 }
 
+TriangulatedDomain make_triangulated(const Asked& asked, Watch& watch) {
+  check(asked.request, kOnePiece, asked.given.policies);
+  TriangulatedDomain made{read_domain(asked.request, asked.given, watch), {}};
+  made.triangulated = triangulate_domain(asked.request, made.domain, 1, Cut::kNever, watch);
+  return made;
+}
+
 CutDomain make_cut(const Asked& asked, std::int32_t ranks, Watch& watch) {
   check(asked.request, ranks > 1 ? kRanks : kSubdomains, asked.given.policies);
   CutDomain made{read_domain(asked.request, asked.given, watch), {}};

@@ -9,6 +9,7 @@
 #include "job/place.hpp"
 #include "job/record.hpp"
 #include "job/request.hpp"
+#include "job/triangulated.hpp"
 #include "job/watch.hpp"
 
 namespace driftmesh::job {
@@ -39,6 +40,15 @@ struct Asked {
 
 /// The part of a rank that knows of no request: does what rank 0 asks all ranks of `place` for.
 [[nodiscard]] std::unique_ptr<Refined> follow(Place& place, Watch& watch);
+
+/// A domain with sizes, triangulated.
+struct TriangulatedDomain {
+  Domain domain;
+  Triangulated triangulated;
+};
+
+/// The same up to the triangulation.
+[[nodiscard]] TriangulatedDomain make_triangulated(const Asked& asked, Watch& watch);
 
 /// A domain, cut.
 struct CutDomain {

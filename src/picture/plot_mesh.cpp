@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <map>
 
 #include "mesh/mesh_edges.hpp"
@@ -146,27 +145,7 @@ class MeshPlot {
       raster.add_triangle(inside(a), inside(b), inside(c), values_.of_triangle[t]);
     }
     if (keep == ValueRaster::Keep::kMean) raster.average_around(kAveraged);
-    paint(raster, origin);
-  }
-
-  void paint(const ValueRaster& raster, const Point& origin) {
-    cairo_surface_t* const image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, raster.width(), raster.height());
-    cairo_surface_flush(image);
-    unsigned char* const bytes = cairo_image_surface_get_data(image);
-    const int stride = cairo_image_surface_get_stride(image);
-    const auto byte_of = [](double v) { return static_cast<std::uint32_t>(std::clamp(v * 255 + 0.5, 0.0, 255.0)); };
-    for (int y = 0; y < raster.height(); ++y)
-      for (int x = 0; x < raster.width(); ++x) {
-        const auto [color, coverage] = raster.pixel(x, y, values_.color_of);
-        const std::uint32_t argb = byte_of(coverage) << 24 | byte_of(coverage * color.red) << 16 |
-                                   byte_of(coverage * color.green) << 8 | byte_of(coverage * color.blue);
-        std::memcpy(bytes + y * stride + 4 * x, &argb, 4);
-      }
-    cairo_surface_mark_dirty(image);
-    cairo_set_source_surface(canvas_.cairo(), image, origin.x, origin.y);
-    cairo_pattern_set_filter(cairo_get_source(canvas_.cairo()), CAIRO_FILTER_NEAREST);
-    cairo_paint(canvas_.cairo());
-    cairo_surface_destroy(image);
+    raster.paint(canvas_, origin, values_.color_of);
   }
 
   // The shorter the edges, the thinner the lines; where the mesh is too fine to be seen, they fade. Each class of

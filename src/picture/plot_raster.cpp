@@ -1,8 +1,12 @@
 #include "picture/plot_raster.hpp"
 
+#include <cairo.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <iterator>
 #include <limits>
 
 namespace driftmesh {
@@ -30,7 +34,9 @@ ValueRaster::ValueRaster(int width, int height, int samples_per_side, Keep keep)
       values_(static_cast<std::size_t>(columns_ * rows_), std::numeric_limits<float>::quiet_NaN()),
       counts_(keep == Keep::kMean ? values_.size() : 0, 0) {}
 
-void ValueRaster::add_triangle(const Point& a, const Point& b, const Point& c, float value) {
+/// Calls visit(column, row) for the samples whose centers lie in a triangle, and returns whether there are any.
+template <class Visit>
+bool ValueRaster::scan(const Point& a, const Point& b, const Point& c, const Visit& visit) const {
   const auto scaled = [this](const Point& p) { return Point{p.x * samples_, p.y * samples_}; };
   std::array<Point, 3> corner = {scaled(a), scaled(b), scaled(c)};
   std::sort(corner.begin(), corner.end(), [](const Point& p, const Point& q) { return p.y < q.y; });
@@ -44,13 +50,25 @@ void ValueRaster::add_triangle(const Point& a, const Point& b, const Point& c, f
     const auto [from, to] = std::minmax(on_long_edge, on_short_edge);
     const std::int64_t last = first_sample(to, columns_);
     for (std::int64_t column = first_sample(from, columns_); column < last; ++column) {
-      put(column, row, value);
+      visit(column, row);
       reached = true;
     }
   }
+  return reached;
+}
+
+void ValueRaster::add_triangle(const Point& a, const Point& b, const Point& c,
+                               const std::function<float(const Point&)>& value_at) {
+  scan(a, b, c, [&](std::int64_t column, std::int64_t row) {
+    put(column, row,
+        value_at({(static_cast<double>(column) + 0.5) / samples_, (static_cast<double>(row) + 0.5) / samples_}));
+  });
+}
+
+void ValueRaster::add_triangle(const Point& a, const Point& b, const Point& c, float value) {
+  const bool reached = scan(a, b, c, [&](std::int64_t column, std::int64_t row) { put(column, row, value); });
   if (reached || keep_ == Keep::kLast) return;
-  const double x = (corner[0].x + corner[1].x + corner[2].x) / 3;
-  const double y = (corner[0].y + corner[1].y + corner[2].y) / 3;
+  const double x = samples_ * (a.x + b.x + c.x) / 3, y = samples_ * (a.y + b.y + c.y) / 3;
   if (x >= 0 && y >= 0 && x < static_cast<double>(columns_) && y < static_cast<double>(rows_))
     put(static_cast<std::int64_t>(x), static_cast<std::int64_t>(y), value);
 }
@@ -113,6 +131,32 @@ ValueRaster::Pixel ValueRaster::pixel(int x, int y, const std::function<Rgb(doub
   if (reached > 0) pixel.color = {pixel.color.red / reached, pixel.color.green / reached, pixel.color.blue / reached};
   pixel.coverage = static_cast<double>(reached) / (samples_ * samples_);
   return pixel;
+}
+
+void ValueRaster::paint(Canvas& canvas, const Point& origin, const std::function<Rgb(double)>& color_of) const {
+  cairo_surface_t* const image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width_, height_);
+  cairo_surface_flush(image);
+  unsigned char* const bytes = cairo_image_surface_get_data(image);
+  const int stride = cairo_image_surface_get_stride(image);
+  const auto byte_of = [](double v) { return static_cast<std::uint32_t>(std::clamp(v * 255 + 0.5, 0.0, 255.0)); };
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x) {
+      const auto [color, coverage] = pixel(x, y, color_of);
+      const std::uint32_t argb = byte_of(coverage) << 24 | byte_of(coverage * color.red) << 16 |
+                                 byte_of(coverage * color.green) << 8 | byte_of(coverage * color.blue);
+      std::memcpy(bytes + y * stride + 4 * x, &argb, 4);
+    }
+  cairo_surface_mark_dirty(image);
+  cairo_set_source_surface(canvas.cairo(), image, origin.x, origin.y);
+  cairo_pattern_set_filter(cairo_get_source(canvas.cairo()), CAIRO_FILTER_NEAREST);
+  cairo_paint(canvas.cairo());
+  cairo_surface_destroy(image);
+}
+
+std::vector<float> ValueRaster::values() const {
+  std::vector<float> reached;
+  std::ranges::copy_if(values_, std::back_inserter(reached), [](float value) { return !std::isnan(value); });
+  return reached;
 }
 
 }  // namespace driftmesh

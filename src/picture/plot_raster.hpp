@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "driftmesh/point.hpp"
+#include "picture/plot_canvas.hpp"
 #include "picture/plot_color.hpp"
 
 namespace driftmesh {
@@ -24,6 +25,8 @@ class ValueRaster {
 
   /// Corners in pixels, y down, in either orientation. Parts outside the raster are clipped.
   void add_triangle(const Point& a, const Point& b, const Point& c, float value);
+  /// The same with a value of its own at the center of each sample, in pixels.
+  void add_triangle(const Point& a, const Point& b, const Point& c, const std::function<float(const Point&)>& value_at);
 
   /// Replaces each mean by that of all triangles at most so many samples away in each direction. Only if means are
   /// kept.
@@ -36,10 +39,14 @@ class ValueRaster {
   };
   [[nodiscard]] Pixel pixel(int x, int y, const std::function<Rgb(double)>& color_of) const;
 
-  [[nodiscard]] int width() const { return width_; }
-  [[nodiscard]] int height() const { return height_; }
+  /// Paints it with its upper left corner at a place of the canvas.
+  void paint(Canvas& canvas, const Point& origin, const std::function<Rgb(double)>& color_of) const;
+  /// The values of all samples that any triangle reached, if not their means are kept.
+  [[nodiscard]] std::vector<float> values() const;
 
  private:
+  template <class Visit>
+  bool scan(const Point& a, const Point& b, const Point& c, const Visit& visit) const;
   void add_up(std::int64_t first, std::int64_t step, std::int64_t count, int samples);
   void put(std::int64_t column, std::int64_t row, float value);
 

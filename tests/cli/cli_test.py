@@ -202,19 +202,28 @@ class Pipeline(Cli):
         self.write("points.node", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n")
         self.succeed("mesh", "square.poly", "--area", "0.01", "-o", "square.msh")
         self.succeed("plot", "square.msh")
-        self.succeed("plot", "square.msh", "-o", "a.svg", "--color", "region", "--edges", "on", "--size", "640x480",
+        self.succeed("plot", "square.msh", "-o", "a.svg", "--color", "region", "--edges", "on", "--pixels", "640x480",
                      "--title", "A square")
         self.succeed("plot", "square.msh", "-o", "a.pdf", "--color", "area", "--box", "0.2,0.2,0.4,0.4")
         self.succeed("plot", "points.node", "--color", "none", "--edges", "off")
+        self.succeed("plot", "square.poly", "--size", "0.1 + 0.3*distance()", "--size-max", "0.4", "-o", "sizes.svg")
+        # A mesh stands for its outline.
+        self.succeed("plot", "square.msh", "--size", "0.1 + 0.3*distance()", "--size-max", "0.4", "-o", "again.svg")
+        for picture in "sizes.svg", "again.svg":
+            self.assertIn("data:image/png;base64,", (self.folder / picture).read_text())
+        self.refuse("plot", "square.poly", "--size", "640x480", "-o", "b.png", code=2, says=["--pixels WxH"])
+        self.refuse("plot", "square.poly", "--gradation", "0.2", "-o", "b.png", code=2, says=["--size", "--size-mesh"])
+        self.refuse("plot", "square.poly", "--size", "depth", "-o", "b.png", says=["depth"])
+        self.assertFalse((self.folder / "b.png").exists())
         for picture, start in (("square.png", b"\x89PNG"), ("a.pdf", b"%PDF"), ("points.png", b"\x89PNG")):
             self.assertTrue((self.folder / picture).read_bytes().startswith(start), picture)
         self.assertIn('width="640', (self.folder / "a.svg").read_text())
         before = self.files()
-        for options, word in ((["--color", "blue"], "blue"), (["--size", "640"], "WIDTHxHEIGHT"),
+        for options, word in ((["--color", "blue"], "blue"), (["--pixels", "640"], "WIDTHxHEIGHT"),
                               (["--box", "1,1,0,0"], "x0 < x1")):
             self.refuse("plot", "square.msh", "-o", "b.png", *options, code=2, says=[word])
         self.refuse("plot", "square.msh", "-o", "b.png", "--width", "20", code=2, says=["--width", "100 to 20000"])
-        self.refuse("plot", "square.msh", "-o", "b.png", "--size", "20x500", says=["each side may have"])
+        self.refuse("plot", "square.msh", "-o", "b.png", "--pixels", "20x500", says=["each side may have"])
         for option in "--output", "--title":
             self.refuse("plot", "square.msh", option, "", code=2, says=[option, "is empty"])
         for input in "square.msh", "square.poly":
