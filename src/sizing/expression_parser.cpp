@@ -231,11 +231,13 @@ class Parser {
     if (function.takes == Function::Arguments::kFixed) finish_call(name, function, count);
   }
   void finish_call(const Token& name, const Function& function, int count) {
-    if (count != function.operation.operands)
+    const int missing = function.operation.operands - count;
+    if (missing < 0 || std::cmp_greater(missing, function.defaults.size()))
       fail(name,
            "found " + std::to_string(count) + (count == 1 ? " argument" : " arguments") + ", expected " +
                std::string(name.text) + "(" + std::string(function.arguments) + ")",
            kExample);
+    for (const double value : function.defaults.last(missing)) emit({.constant = value});
     emit(function.operation);
   }
 

@@ -6,6 +6,8 @@
 #include <functional>
 #include <numbers>
 
+#include "sizing/water_waves.hpp"
+
 namespace driftmesh {
 namespace {
 
@@ -168,6 +170,8 @@ constexpr std::array kOperators{
     Operator{"^", 6, {2, of2<kPower>, over2<power>, power_slope}},
 };
 
+constexpr std::array kCourantDefaults{0.5, 0.0};
+
 constexpr std::array kFunctions{
     Function{"abs", "a", "absolute value", {1, of1<std::fabs>, over1<absolute>, absolute_slope}},
     Function{"sign", "a", "-1, 0 or 1, as a is negative, 0 (or NaN) or positive", {1, of1<sign>, sign_over}},
@@ -207,6 +211,17 @@ constexpr std::array kFunctions{
     Function{"max", "a, b, ...", "the greatest", {2, of2<kMax>, over2<larger>, larger_slope, kOperand}, kAny},
     Function{"sum", "a, b, ...", "the sum", {2, of2<std::plus<>{}>, over2<add>, add_slope}, kAny},
     Function{"avg", "a, b, ...", "the mean", {2, of2<std::plus<>{}>, over2<add>, add_slope}, kAnyForMean},
+    Function{"wavelength",
+             "depth, period",
+             "length of water waves (m) of a period (s) in a depth (m); NaN where one is negative",
+             {2, of2<wavelength>, over2<wavelength_over>,
+              [](R v, R d) { return wavelength_slope(v[0], v[1], d[0], d[1]); }}},
+    Function{"courant",
+             "depth, dt, bound = 0.5, speed = 0",
+             "edge length (m) at which waves in a depth (m) have this Courant number in steps of dt (s)",
+             {4, [](V v) { return courant_length(v[0], v[1], v[2], v[3]); }, courant_length_over, courant_length_slope},
+             kFixed,
+             kCourantDefaults},
 };
 
 constexpr std::array kConstants{NamedConstant{"pi", std::numbers::pi}, NamedConstant{"e", std::numbers::e},

@@ -41,6 +41,7 @@ struct Function {
   std::string_view name, arguments, meaning;
   Operation operation;
   Arguments takes = Arguments::kFixed;
+  std::span<const double> defaults = {};  ///< of the last arguments, if they are not given
 };
 
 struct NamedConstant {
@@ -56,7 +57,7 @@ extern const Operation kNegative, kSquare;
 extern const Operation kChoose;  ///< condition ? then : otherwise
 
 /// The most operands that an operation takes.
-inline constexpr int kMostOperands = 3;
+inline constexpr int kMostOperands = 4;
 
 /// The functions as a table in Markdown.
 [[nodiscard]] std::string expression_functions_table();

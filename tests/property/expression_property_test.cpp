@@ -14,6 +14,7 @@
 #include "driftmesh/error.hpp"
 #include "property/cases.hpp"
 #include "sizing/expression.hpp"
+#include "sizing/water_waves.hpp"
 #include "support/error_text.hpp"
 #include "support/infinity.hpp"
 
@@ -97,6 +98,12 @@ const std::map<std::string, double (*)(const Values&)>& meanings() {
       {"min", [](V v) { return leftmost(v, [](double a, double b) { return a < b; }); }},
       {"max", [](V v) { return leftmost(v, [](double a, double b) { return a > b; }); }},
       {"sum", total},
+      {"wavelength", [](V v) { return wavelength(v[0], v[1]); }},
+      {"courant",
+       [](V v) {
+         const double speed = std::sqrt(9.81 * (v[0] < 1 ? 1 : v[0])) + (v.size() > 3 ? v[3] : 0);
+         return v[1] * speed / (v.size() > 2 ? v[2] : 0.5);
+       }},
       {"avg", [](V v) { return total(v) / static_cast<double>(v.size()); }}};
   return all;
 }
@@ -183,7 +190,9 @@ std::size_t random_count(Random& random, const std::string& name) {
   for (const Operator& row : expression_operators())
     if (row.token == name) return 2;
   for (const Function& row : expression_functions())
-    if (row.name == name) return row.takes == Function::Arguments::kFixed ? row.operation.operands : 1 + random() % 4;
+    if (row.name == name)
+      return row.takes == Function::Arguments::kFixed ? row.operation.operands - random() % (row.defaults.size() + 1)
+                                                      : 1 + random() % 4;
   return 1;
 }
 
