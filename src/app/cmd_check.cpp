@@ -121,10 +121,8 @@ VerifyReport read_and_verify(CheckOptions& options, const job::Request& request)
   const Pslg* const input = file ? &file->pslg : nullptr;
   const bool sized =
       !request.sizing.expression.empty() || !request.sizing.background.empty() || request.sizing.longest > 0;
-  SizingOptions sizes = job::sizing_of(request.sizing, input != nullptr ? job::box_of(*input)
-                                                       : sized          ? mesh.box()
-                                                                        : Box{});
-  sizes.input = input;
+  SizingOptions sizes = input != nullptr ? job::sizing_of(request.sizing, *input)
+                                         : job::sizing_of(request.sizing, sized ? mesh.box() : Box{});
   sizes.exact = true;
   job::Rasters rasters = job::rasters_of(request, file ? file->projection : "");
   open_all(rasters, sizes.domain, {});

@@ -13,6 +13,7 @@
 #include "job/files.hpp"
 #include "job/key.hpp"
 #include "mesh/cdt.hpp"
+#include "mesh/domain_outline.hpp"
 #include "mesh/nested_rings.hpp"
 #include "mesh/with_seeds.hpp"
 #include "pslg/generators.hpp"
@@ -178,9 +179,8 @@ void warn(const Request& request, std::span<const std::string> warnings, Watch& 
 
 SizeSource size_of(const Request::Sizing& sizing, const NamedRasters& rasters, const SizeField* given,
                    const Pslg& pslg) {
-  SizingOptions options = sizing_of(sizing, box_of(pslg));
+  SizingOptions options = sizing_of(sizing, pslg);
   options.rasters = rasters;
-  options.input = &pslg;
   if (given == nullptr) return make_size(options);
   return {std::make_unique<SampledField>(*given, SampledField::Grid{options.domain.low, options.spacing})};
 }
@@ -202,6 +202,13 @@ SizingOptions sizing_of(const Request::Sizing& asked, const Box& box) {
   if (asked.gradation > 0) sizing.gradation = asked.gradation;
   sizing.shortest = asked.shortest;
   if (asked.longest > 0) sizing.longest = asked.longest;
+  return sizing;
+}
+
+SizingOptions sizing_of(const Request::Sizing& asked, const Pslg& pslg) {
+  SizingOptions sizing = sizing_of(asked, box_of(pslg));
+  sizing.input = &pslg;
+  sizing.outline = [&pslg] { return domain_outline(pslg); };
   return sizing;
 }
 

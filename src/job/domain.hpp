@@ -55,8 +55,9 @@ void warn(const Request& request, std::span<const std::string> warnings, Watch& 
 [[nodiscard]] SizeSource size_of(const Request::Sizing& sizing, const NamedRasters& rasters, const SizeField* given,
                                  const Pslg& pslg);
 
-/// What the request asks for of the sizes of triangles in a domain inside `box`.
+/// What the request asks for of the sizes of triangles in a domain inside `box`, and in this one, which is not owned.
 [[nodiscard]] SizingOptions sizing_of(const Request::Sizing& sizing, const Box& box);
+[[nodiscard]] SizingOptions sizing_of(const Request::Sizing& sizing, const Pslg& pslg);
 
 /// Around the segments, or around the points if there are none.
 [[nodiscard]] Box box_of(const Pslg& pslg);

@@ -14,8 +14,9 @@ namespace driftmesh {
 class Expression final : public PlaneFunction {
  public:
   /// Throws InputError: see parse_expression.
-  explicit Expression(const std::string& text, const Pslg* input = nullptr, const NamedRasters& rasters = {})
-      : Expression(parse_expression(text, input, rasters)) {}
+  explicit Expression(const std::string& text, const Pslg* input = nullptr, const NamedRasters& rasters = {},
+                      const FindOutline& outline = {})
+      : Expression(parse_expression(text, input, rasters, outline)) {}
 
   /// The value at a point, NaN where the expression has none.
   [[nodiscard]] double at(const Point& p) const override;

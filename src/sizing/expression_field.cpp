@@ -48,8 +48,8 @@ class Clamped final : public PlaneFunction {
 }  // namespace
 
 ExpressionField::ExpressionField(const std::string& expression, double shortest, double longest, const Pslg* input,
-                                 const NamedRasters& rasters)
-    : text_(expression), function_(std::make_shared<const Expression>(expression, input, rasters)) {
+                                 const NamedRasters& rasters, const FindOutline& outline)
+    : text_(expression), function_(std::make_shared<const Expression>(expression, input, rasters, outline)) {
   if (shortest > 0 || longest < std::numeric_limits<double>::infinity())
     function_ = std::make_shared<const Clamped>(function_, shortest > 0 ? shortest : intervals::kAll.low, longest);
 }

@@ -6,6 +6,7 @@
 
 #include "driftmesh/pslg.hpp"
 #include "driftmesh/size_field.hpp"
+#include "sizing/medial_axis.hpp"
 #include "sizing/named_raster.hpp"
 #include "sizing/plane_function.hpp"
 
@@ -19,7 +20,7 @@ class ExpressionField final : public SizeField {
   /// parse_expression.
   explicit ExpressionField(const std::string& expression, double shortest = 0,
                            double longest = std::numeric_limits<double>::infinity(), const Pslg* input = nullptr,
-                           const NamedRasters& rasters = {});
+                           const NamedRasters& rasters = {}, const FindOutline& outline = {});
 
   /// Throws InputError naming `p` if the value there is NaN or not positive.
   [[nodiscard]] double edge_length(const Point& p) const override;

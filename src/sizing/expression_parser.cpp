@@ -8,6 +8,7 @@
 
 #include "base/key_error.hpp"
 #include "base/nearest_name.hpp"
+#include "sizing/local_width.hpp"
 #include "sizing/segment_distance.hpp"
 
 namespace driftmesh {
@@ -15,7 +16,7 @@ namespace {
 
 using Leaf = ExpressionStep::Leaf;
 
-constexpr std::string_view kDistance = "distance", kSlope = "slope";
+constexpr std::string_view kDistance = "distance", kSlope = "slope", kWidth = "width";
 constexpr char kExample[] = "write for example 0.1 + 0.02*sqrt(x^2 + y^2)";
 constexpr int kLoosest = 1, kSign = 6;  // precedences; a sign binds as tightly as ^
 
@@ -46,7 +47,7 @@ const Operator* find_operator(std::string_view token) {
 std::vector<std::string> known_names() {
   std::vector<std::string> names{"x", "y"};
   for (const NamedConstant& constant : expression_constants()) names.emplace_back(constant.name);
-  for (const std::string_view name : {kDistance, kSlope}) names.emplace_back(name);
+  for (const std::string_view name : {kDistance, kSlope, kWidth}) names.emplace_back(name);
   for (const Function& function : expression_functions()) names.emplace_back(function.name);
   return names;
 }
@@ -80,8 +81,8 @@ void sort_once(std::vector<std::int32_t>& markers) {
 /// By precedence climbing: reads a value, then operators while they bind tightly enough.
 class Parser {
  public:
-  Parser(const std::string& text, const Pslg* input, const NamedRasters& rasters)
-      : text_(text), input_(input), rasters_(rasters) {}
+  Parser(const std::string& text, const Pslg* input, const NamedRasters& rasters, const FindOutline& outline)
+      : text_(text), input_(input), rasters_(rasters), outline_(outline) {}
 
   ParsedExpression parse() {
     if (text_.size() > kLongestExpression)
@@ -208,6 +209,8 @@ class Parser {
       emit_function(read_distance(name));
     else if (name.text == kSlope)
       emit_function(read_slope(name));
+    else if (name.text == kWidth)
+      emit_function(read_width(name));
     else if (raster != rasters_.end())
       emit_function(values_of(raster->raster));
     else
@@ -301,6 +304,17 @@ class Parser {
          KeyText::of("name its file: {input.rasters} {}=FILE", asked));
   }
 
+  std::shared_ptr<const PlaneFunction> read_width(const Token& name) {
+    open(name);
+    require(")", "\")\": " + std::string(name.text) + " takes no arguments");
+    if (width_ != nullptr) return width_;
+    const OutlineSegments outline = outline_ ? outline_() : OutlineSegments{};
+    if (outline.empty())
+      fail(name, "there is no domain that " + std::string(name.text) + " could measure", "give an input");
+    width_ = std::make_shared<const LocalWidth>(outline);
+    return width_;
+  }
+
   // ---- Steps ----
 
   void emit(const Operation& operation) {
@@ -365,18 +379,21 @@ class Parser {
   const std::string& text_;
   const Pslg* input_;
   const NamedRasters& rasters_;
+  const FindOutline& outline_;
   Token token_;
   std::vector<ExpressionStep> steps_;
   std::vector<std::shared_ptr<const PlaneFunction>> functions_;
   std::map<std::vector<std::int32_t>, std::shared_ptr<const PlaneFunction>> distances_;
+  std::shared_ptr<const PlaneFunction> width_;
   std::size_t nesting_ = 0;
   int depth_ = 0;  // values on the stack
 };
 
 }  // namespace
 
-ParsedExpression parse_expression(const std::string& text, const Pslg* input, const NamedRasters& rasters) {
-  return Parser(text, input, rasters).parse();
+ParsedExpression parse_expression(const std::string& text, const Pslg* input, const NamedRasters& rasters,
+                                  const FindOutline& outline) {
+  return Parser(text, input, rasters, outline).parse();
 }
 
 SourcePlace place_of_expression(const std::string& text) {

@@ -10,6 +10,7 @@
 #include "driftmesh/error.hpp"
 #include "driftmesh/pslg.hpp"
 #include "sizing/expression_table.hpp"
+#include "sizing/medial_axis.hpp"
 #include "sizing/named_raster.hpp"
 #include "sizing/plane_function.hpp"
 
@@ -35,10 +36,11 @@ inline constexpr std::size_t kDeepestExpression = 1000;
 inline constexpr std::size_t kLongestExpression = 100'000;  ///< characters
 
 /// The steps of an expression; docs/size-expressions.md has the grammar. `input`: with the segments that distance
-/// measures to, needed no longer than this call; null: none. Throws InputError naming the column where the expression
-/// is wrong, and the markers that exist where distance asks for another.
-[[nodiscard]] ParsedExpression parse_expression(const std::string& text, const Pslg* input,
-                                                const NamedRasters& rasters);
+/// measures to, needed no longer than this call; null: none. `outline`: that of the domain, of which width measures the
+/// width. Throws InputError naming the column where the expression is wrong, and the markers that exist where distance
+/// asks for another.
+[[nodiscard]] ParsedExpression parse_expression(const std::string& text, const Pslg* input, const NamedRasters& rasters,
+                                                const FindOutline& outline);
 
 /// Where an error in an expression is: its beginning, if it is long.
 [[nodiscard]] SourcePlace place_of_expression(const std::string& text);

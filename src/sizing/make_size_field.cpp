@@ -80,7 +80,7 @@ std::unique_ptr<SizeField> expression_field(const SizingOptions& options) {
   constexpr double kNarrow = 0.5, kLittle = 0.1;
   constexpr GrownFunction::Accuracy kExact{.narrow = 0.2, .search = 0.97};
   const auto field = std::make_shared<const ExpressionField>(options.expression, options.shortest, options.longest,
-                                                             options.input, options.rasters);
+                                                             options.input, options.rasters, options.outline);
   std::shared_ptr<const PlaneFunction> function = field->function();
   if (options.gradation)
     function = std::make_shared<const GrownFunction>(

@@ -10,6 +10,7 @@
 #include "driftmesh/size_field.hpp"
 #include "geometry/box.hpp"
 #include "sizing/background_mesh.hpp"
+#include "sizing/medial_axis.hpp"
 #include "sizing/named_raster.hpp"
 
 namespace driftmesh {
@@ -32,6 +33,8 @@ struct SizingOptions {
   /// With the segments that distance() in the expression measures to; null: none. Not owned, and needed only while the
   /// field is made.
   const Pslg* input = nullptr;
+  /// The outline of the domain, of which width() in the expression is the width.
+  FindOutline outline{};
   /// Those that the expression may name.
   NamedRasters rasters{};
   /// Lengths at points as the sources give them, not from a tree: for those who judge what was made from that.

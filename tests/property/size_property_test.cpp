@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "driftmesh/error.hpp"
+#include "mesh/domain_outline.hpp"
 #include "property/cases.hpp"
 #include "sizing/background_field.hpp"
 #include "sizing/expression_field.hpp"
@@ -185,6 +186,7 @@ std::unique_ptr<SizeField> size_of(const std::string& expression, std::optional<
   SizingOptions options{
       .expression = expression, .gradation = gradation, .spacing = 1.0 / 2000, .domain = {{0, 0}, {1, 1}}};
   options.input = input;
+  if (input != nullptr) options.outline = [input] { return domain_outline(*input); };
   options.exact = exact;
   return make_size_field(options);
 }
@@ -333,7 +335,9 @@ Pslg random_outline(Random& random) {
 std::string random_rule(Random& random) {
   const auto number = [&](double low, double high) { return text_of(uniform(random, low, high)); };
   const std::string near = number(0.004, 0.01), far = number(0.03, 0.08);
-  switch (random() % 5) {
+  switch (random() % 6) {
+    case 5:
+      return "max(" + near + ",min(" + far + ",width()/" + number(2, 8) + "))";
     case 0:
       return near + "+" + number(0.03, 0.25) + "*distance()";
     case 1:
