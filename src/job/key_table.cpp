@@ -97,7 +97,8 @@ Section triangle_section() {
        key("sizing.size", &R::sizing, &R::Sizing::expression,
            "Target edge length as a function of x, y and the distance to the nearest segment with one of some "
            "markers: \"0.1 + 0.02*sqrt(x^2 + y^2)\", \"5 + 0.1*distance(1, 2)\"; distance() is that to the nearest of "
-           "all segments. A raster's name is its value, and slope(name) the length of its gradient: \"max(20, "
+           "all segments, width() the local width of the domain. A raster's name is its value, and slope(name) the "
+           "length of its gradient: \"max(20, "
            "3*sqrt(9.81*depth))\". driftmesh config --functions lists the functions",
            option("size", "EXPR"), entry_points(kSizes)),
        key("sizing.background", &R::sizing, &R::Sizing::background,

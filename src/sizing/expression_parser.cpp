@@ -9,6 +9,7 @@
 #include "base/key_error.hpp"
 #include "base/nearest_name.hpp"
 #include "sizing/local_width.hpp"
+#include "sizing/outline_curvature.hpp"
 #include "sizing/segment_distance.hpp"
 
 namespace driftmesh {
@@ -16,7 +17,7 @@ namespace {
 
 using Leaf = ExpressionStep::Leaf;
 
-constexpr std::string_view kDistance = "distance", kSlope = "slope", kWidth = "width";
+constexpr std::string_view kDistance = "distance", kSlope = "slope", kWidth = "width", kCurvature = "curvature";
 constexpr char kExample[] = "write for example 0.1 + 0.02*sqrt(x^2 + y^2)";
 constexpr int kLoosest = 1, kSign = 6;  // precedences; a sign binds as tightly as ^
 
@@ -47,7 +48,7 @@ const Operator* find_operator(std::string_view token) {
 std::vector<std::string> known_names() {
   std::vector<std::string> names{"x", "y"};
   for (const NamedConstant& constant : expression_constants()) names.emplace_back(constant.name);
-  for (const std::string_view name : {kDistance, kSlope, kWidth}) names.emplace_back(name);
+  for (const std::string_view name : {kDistance, kSlope, kWidth, kCurvature}) names.emplace_back(name);
   for (const Function& function : expression_functions()) names.emplace_back(function.name);
   return names;
 }
@@ -210,7 +211,9 @@ class Parser {
     else if (name.text == kSlope)
       emit_function(read_slope(name));
     else if (name.text == kWidth)
-      emit_function(read_width(name));
+      emit_function(read_of_outline<LocalWidth>(name, width_));
+    else if (name.text == kCurvature)
+      emit_function(read_of_outline<OutlineCurvature>(name, curvature_));
     else if (raster != rasters_.end())
       emit_function(values_of(raster->raster));
     else
@@ -304,15 +307,16 @@ class Parser {
          KeyText::of("name its file: {input.rasters} {}=FILE", asked));
   }
 
-  std::shared_ptr<const PlaneFunction> read_width(const Token& name) {
+  /// `made`: when it was named before.
+  template <class Function>
+  std::shared_ptr<const PlaneFunction> read_of_outline(const Token& name, std::shared_ptr<const PlaneFunction>& made) {
     open(name);
     require(")", "\")\": " + std::string(name.text) + " takes no arguments");
-    if (width_ != nullptr) return width_;
+    if (made != nullptr) return made;
     const OutlineSegments outline = outline_ ? outline_() : OutlineSegments{};
     if (outline.empty())
       fail(name, "there is no domain that " + std::string(name.text) + " could measure", "give an input");
-    width_ = std::make_shared<const LocalWidth>(outline);
-    return width_;
+    return made = std::make_shared<const Function>(outline);
   }
 
   // ---- Steps ----
@@ -384,7 +388,7 @@ class Parser {
   std::vector<ExpressionStep> steps_;
   std::vector<std::shared_ptr<const PlaneFunction>> functions_;
   std::map<std::vector<std::int32_t>, std::shared_ptr<const PlaneFunction>> distances_;
-  std::shared_ptr<const PlaneFunction> width_;
+  std::shared_ptr<const PlaneFunction> width_, curvature_;
   std::size_t nesting_ = 0;
   int depth_ = 0;  // values on the stack
 };

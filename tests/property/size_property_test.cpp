@@ -353,6 +353,18 @@ std::string random_rule(Random& random) {
 
 }  // namespace
 
+TEST_CASE("the outline of a domain has the domain to its left, and no segments inside") {
+  Pslg domain = unit_square();
+  domain.points.insert(domain.points.end(), {{0.4, 0.4}, {0.6, 0.4}, {0.6, 0.6}, {0.4, 0.6}, {0.1, 0.2}, {0.9, 0.2}});
+  for (const auto& [a, b] : {std::pair{4, 5}, {6, 5}, {6, 7}, {4, 7}, {8, 9}}) domain.segments.push_back({a, b, 2});
+  domain.holes = {{0.5, 0.5}};
+  const OutlineSegments outline = domain_outline(domain);
+  CHECK(outline.size() == 8);
+  double area = 0;
+  for (const auto& [a, b] : outline) area += (a.x * b.y - a.y * b.x) / 2;
+  CHECK(area == doctest::Approx(1 - 0.04));
+}
+
 TEST_CASE("in any outline no triangle is larger than a rule asks for, and meshes have hardly more than that takes") {
   Random random = seeded_generator("rules in outlines");
   double made = 0, needed = 0;

@@ -6,10 +6,14 @@
 #include <memory>
 #include <numbers>
 #include <random>
+#include <string>
 #include <vector>
 
+#include "driftmesh/error.hpp"
 #include "property/cases.hpp"
+#include "sizing/expression.hpp"
 #include "sizing/local_width.hpp"
+#include "support/error_text.hpp"
 #include "support/infinity.hpp"
 
 // Widths of random outlines against their definition: balls that grow from all over the outline until they touch it
@@ -211,6 +215,23 @@ TEST_CASE("in a straight channel the width is the distance of its sides, whereve
       CHECK(width.at(place(u, v)) == doctest::Approx(scale * wide).epsilon(3e-3));
     }
     for (const Point& corner : points) CHECK(width.at(corner) >= 0.99 * scale * wide);
+  }
+}
+
+TEST_CASE("width and curvature in formulas") {
+  const FindOutline outline = [] { return ring_of({{0, 0}, {8, 0}, {8, 1}, {0, 1}}); };
+  int asked = 0;
+  const FindOutline counted = [&] { return ++asked, outline(); };
+  const Expression rule("width()/4 + min(width(), 9)", nullptr, {}, counted);
+  CHECK(rule.at({4, 0.3}) == doctest::Approx(1.25).epsilon(1e-3));
+  CHECK(asked == 1);
+  CHECK(Expression("1/curvature()", nullptr, {}, outline).at({8, 0}) == doctest::Approx(std::hypot(8, 1) / 2));
+  for (const std::string name : {"width", "curvature"}) {
+    const auto error = [&](const std::string& text, const FindOutline& of) {
+      return error_text<InputError>([&] { (void)Expression(text, nullptr, {}, of); });
+    };
+    CHECK(mentions(error(name + "(1)", outline), "expected \")\": " + name + " takes no arguments"));
+    CHECK(mentions(error("2*" + name + "()", {}), "column 3: there is no domain that " + name + " could measure"));
   }
 }
 
