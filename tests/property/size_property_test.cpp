@@ -365,6 +365,32 @@ TEST_CASE("the outline of a domain has the domain to its left, and no segments i
   CHECK(area == doctest::Approx(1 - 0.04));
 }
 
+TEST_CASE("a part of the width puts as many triangles across a channel") {
+  Random random = seeded_generator("triangles across");
+  for (int i = 0; i < case_count(12); ++i) {
+    const double wide = uniform(random, 0.02, 0.2), slope = uniform(random, -0.6, 0.6);
+    const int count = 2 + static_cast<int>(random() % 5);
+    CAPTURE(wide);
+    CAPTURE(slope);
+    CAPTURE(count);
+    Pslg domain;  // a basin, and a channel that leads out of it
+    domain.points = {{-0.5, -0.5},      {0, -0.5}, {0, 0},          {1, slope},
+                     {1, slope + wide}, {0, wide}, {0, wide + 0.5}, {-0.5, wide + 0.5}};
+    for (std::int32_t k = 0; k < 8; ++k) domain.segments.push_back({k, (k + 1) % 8, 1});
+    const std::vector<Corner> mesh =
+        meshed({.expression = "width()/" + std::to_string(count), .background = {}}, 1, nullptr, domain);
+    for (int k = 0; k < 50; ++k) {
+      const double x = uniform(random, 0.05, 0.95);
+      const auto across = std::ranges::count_if(mesh, [x](const Corner& t) {
+        const auto [low, high] = std::minmax({t[0].x, t[1].x, t[2].x});
+        return low < x && x < high;
+      });
+      CHECK(across >= count);
+    }
+    CHECK(mesh.size() < 60.0 * count * count * (1 / wide + 40));
+  }
+}
+
 TEST_CASE("in any outline no triangle is larger than a rule asks for, and meshes have hardly more than that takes") {
   Random random = seeded_generator("rules in outlines");
   double made = 0, needed = 0;
