@@ -34,7 +34,7 @@ int run(const MeshCommand& command) {
     if (!command.allow_code) config::refuse_code_of_file(settings.request, settings.places);
     const job::Request& request = settings.request;
     const job::Request::Input& input = request.input;
-    if (input.file.empty() && input.generator.empty() && input.parameters.empty())
+    if (input.file.empty() && input.generator.empty() && input.parameters.empty() && input.contour.empty())
       throw cli::UsageError("INPUT is missing");
     const job::PlaceKind place = job::place_of(request, job::kMesh, launched);
     code = run_mesh(request, place, command_line_of("driftmesh mesh", request, job::kMesh), command.config);

@@ -201,7 +201,8 @@ class ExperimentReader {
   }
 
   void check_point(const Request& request) const {
-    if (request.input.file.empty() && request.input.generator.empty())
+    const Request::Input& input = request.input;
+    if (input.file.empty() && input.generator.empty() && input.contour.empty())
       throw KeyError("input.file", "is missing",
                      "name a file with {input.file}, or what to generate with {input.generate}");
     if (!allow_code_) refuse_code_of_file(request, result_.places);

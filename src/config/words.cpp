@@ -114,8 +114,9 @@ std::string row(const std::string& name, const KeyInfo& key) {
 /// The value in a form that does not depend on the folder of the file it is written to.
 Value from_anywhere(const KeyInfo& key, const Value& value) {
   const auto absolute = [&](const std::string& text) {
-    const bool moves = job::names_file(key, text) && !is_standard_stream(text);
-    return moves ? std::filesystem::absolute(text).string() : text;
+    return job::with_files(key, text, [](const std::string& file) {
+      return is_standard_stream(file) ? file : std::filesystem::absolute(file).string();
+    });
   };
   if (const auto* const text = std::get_if<std::string>(&value)) return absolute(*text);
   const auto* const table = std::get_if<std::map<std::string, std::string>>(&value);

@@ -42,17 +42,21 @@ class Values {
       default:
         const Value one = single(key, node);
         const auto* const name = std::get_if<std::string>(&one);
-        return name != nullptr && job::names_file(key, *name) ? Value(origin_.resolved(*name)) : one;
+        return name != nullptr ? Value(resolved(key, *name)) : one;
     }
   }
 
   [[nodiscard]] Value value(const KeyPath& path, const YAML::Node& node) const {
     if (path.entry.empty()) return value(*path.key, node);
-    const std::string own = text(path.key->name + "." + path.entry, node);
-    return job::names_file(*path.key, own) ? origin_.resolved(own) : own;
+    return resolved(*path.key, text(path.key->name + "." + path.entry, node));
   }
 
  private:
+  /// With the files that it names, if it does, as seen from the working directory.
+  [[nodiscard]] std::string resolved(const KeyInfo& key, const std::string& value) const {
+    return job::with_files(key, value, [this](const std::string& file) { return origin_.resolved(file); });
+  }
+
   [[noreturn]] void fail(const std::string& name, const YAML::Node& node, const std::string& what,
                          const std::string& next) const {
     origin_.fail(node.Mark(), "'" + name + "' " + what, next);
@@ -77,8 +81,7 @@ class Values {
     Table table;
     for (const auto& entry : node) {
       const std::string name = text(key, entry.first);
-      const std::string own = text(key.name + "." + name, entry.second);
-      if (!table.emplace(name, job::names_file(key, own) ? origin_.resolved(own) : own).second)
+      if (!table.emplace(name, resolved(key, text(key.name + "." + name, entry.second))).second)
         fail(key.name, entry.first, "has '" + name + "' twice", "remove one of them");
     }
     return table;

@@ -36,7 +36,9 @@ bool could_be_degrees(GeoFeatures& features) {
   return could_be;
 }
 
-InputFile to_input(const std::string& file, GeoFeatures features) {
+}  // namespace
+
+InputFile input_of(const std::string& file, GeoFeatures features) {
   InputFile input;
   input.warnings = features.warnings;
   if (could_be_degrees(features))
@@ -48,6 +50,8 @@ InputFile to_input(const std::string& file, GeoFeatures features) {
   return input;
 }
 
+namespace {
+
 /// GDAL, if it is there, knows the systems that are not known here: what is in Mercator's projection or in feet does
 /// not go for meters.
 InputFile read_geojson(const std::string& path) {
@@ -55,13 +59,13 @@ InputFile read_geojson(const std::string& path) {
   if (!features.knows_system() && !is_standard_stream(path) && can_read_vectors())
     if (GeoFeatures known = parse_geojson(path, vector_as_geojson(path, "")); known.system != kInMeters)
       features = std::move(known);
-  return to_input(path, std::move(features));
+  return input_of(path, std::move(features));
 }
 
 }  // namespace
 
 InputFile parse_geojson_input(const std::string& file, std::string_view text) {
-  return to_input(file, parse_geojson(file, text));
+  return input_of(file, parse_geojson(file, text));
 }
 
 InputFile read_geometry(const std::string& path, const std::string& layers) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "driftmesh/files.hpp"
+#include "geojson/geojson.hpp"
 
 namespace driftmesh {
 
@@ -13,6 +14,9 @@ namespace driftmesh {
 
 /// read_input of GeoJSON in memory; `file` is for messages.
 [[nodiscard]] InputFile parse_geojson_input(const std::string& file, std::string_view text);
+
+/// The domain of features, projected if they are in degrees; `file` is for messages.
+[[nodiscard]] InputFile input_of(const std::string& file, GeoFeatures features);
 
 /// read_input of a file that holds no mesh.
 [[nodiscard]] InputFile read_geometry(const std::string& path, const std::string& layers = "");

@@ -29,30 +29,45 @@ class GdalRaster final : public RasterRows {
   }
 
   [[nodiscard]] const RasterFrame& frame() const override { return frame_; }
-  [[nodiscard]] std::function<Point(const Point&)> from_zone(const UtmZone& zone) const override {
+  [[nodiscard]] PlaceFunction to_zone(const UtmZone& zone) const override {
+    const OGRSpatialReferenceH own = gdal_.GDALGetSpatialRef(data_.get());
+    if (own == nullptr || !gdal_.is_on_globe(own)) return RasterRows::to_zone(zone);
+    const std::shared_ptr<Transformation> from_own = transformation(own, zone.epsg(), Direction::kFromOwn);
+    if (from_own == nullptr) return nullptr;
+    return [this, from_own](const Point& p) { return transformed(from_own.get(), p); };
+  }
+  [[nodiscard]] PlaceFunction from_zone(const UtmZone& zone) const override {
     const OGRSpatialReferenceH own = gdal_.GDALGetSpatialRef(data_.get());
     if (own == nullptr || !gdal_.is_on_globe(own)) return RasterRows::from_zone(zone);
-    const QuietGdal quiet(gdal_);
-    const OwnedByUs<OGRSpatialReferenceH> system(
-        gdal_.OSRNewSpatialReference(nullptr), [this](OGRSpatialReferenceH s) { gdal_.OSRDestroySpatialReference(s); });
-    if (gdal_.OSRImportFromEPSG(system.get(), zone.epsg()) != OGRERR_NONE)
-      fail(quiet.message("PROJ does not know the zone of the domain"), "its data may be missing: install proj-data");
-    gdal_.OSRSetAxisMappingStrategy(system.get(), OAMS_TRADITIONAL_GIS_ORDER);
-    if (gdal_.OSRIsSame(own, system.get()) != 0) return nullptr;
-    const std::shared_ptr<std::remove_pointer_t<OGRCoordinateTransformationH>> to_own(
-        gdal_.OCTNewCoordinateTransformation(system.get(), own),
-        [&gdal = gdal_](OGRCoordinateTransformationH t) { gdal.OCTDestroyCoordinateTransformation(t); });
-    if (to_own == nullptr) fail(quiet.message("lies in an unknown coordinate system"), "reproject it with gdalwarp");
+    const std::shared_ptr<Transformation> to_own = transformation(own, zone.epsg(), Direction::kToOwn);
+    if (to_own == nullptr) return nullptr;
     const bool in_degrees = gdal_.OSRIsGeographic(own) != 0;
     const double middle = frame_.first.x + frame_.dx * static_cast<double>(frame_.columns - 1) / 2;
     return [this, to_own, in_degrees, middle](const Point& p) {
-      const QuietGdal quiet_here(gdal_);
-      Point place = p;
-      if (gdal_.OCTTransform(to_own.get(), 1, &place.x, &place.y, nullptr) == 0)
-        fail("cannot be placed in the domain's zone", "reproject it with gdalwarp");
+      Point place = transformed(to_own.get(), p);
       if (in_degrees) place.x = middle + std::remainder(place.x - middle, 360);  // as the raster counts longitudes
       return place;
     };
+  }
+
+  [[nodiscard]] DomainSystem domain_system() const override {
+    const OGRSpatialReferenceH own = gdal_.GDALGetSpatialRef(data_.get());
+    if (own == nullptr || !gdal_.is_on_globe(own)) return RasterRows::domain_system();
+    constexpr int kWgs84 = 4326;
+    DomainSystem system{.in_degrees = true};
+    int code = kWgs84;
+    if (gdal_.OSRIsProjected(own) != 0 && gdal_.OSRGetLinearUnits(own, nullptr) == 1 && !gdal_.is_mercator(own)) {
+      system.in_degrees = false;
+      int north = 0;
+      const int number = gdal_.OSRGetUTMZone(own, &north);
+      if (number == 0) return system;
+      const UtmZone zone{number, north != 0};
+      system.projection = zone.name();
+      code = zone.epsg();
+    }
+    if (const auto from_own = transformation(own, code, Direction::kFromOwn))
+      system.from_raster = [this, from_own](const Point& p) { return transformed(from_own.get(), p); };
+    return system;
   }
 
   [[nodiscard]] bool in_mercator() const override {
@@ -76,6 +91,34 @@ class GdalRaster final : public RasterRows {
  private:
   [[noreturn]] void fail(const std::string& what, const std::string& next) const {
     throw InputError({file_}, what, next);
+  }
+
+  using Transformation = std::remove_pointer_t<OGRCoordinateTransformationH>;
+  enum class Direction { kToOwn, kFromOwn };
+
+  /// Between the system of the file and that with an EPSG code; null if they are the same.
+  [[nodiscard]] std::shared_ptr<Transformation> transformation(OGRSpatialReferenceH own, int code,
+                                                               Direction direction) const {
+    const QuietGdal quiet(gdal_);
+    const OwnedByUs<OGRSpatialReferenceH> system(
+        gdal_.OSRNewSpatialReference(nullptr), [this](OGRSpatialReferenceH s) { gdal_.OSRDestroySpatialReference(s); });
+    if (gdal_.OSRImportFromEPSG(system.get(), code) != OGRERR_NONE)
+      fail(quiet.message("PROJ does not know the zone of the domain"), "its data may be missing: install proj-data");
+    gdal_.OSRSetAxisMappingStrategy(system.get(), OAMS_TRADITIONAL_GIS_ORDER);
+    if (gdal_.OSRIsSame(own, system.get()) != 0) return nullptr;
+    const bool to_own = direction == Direction::kToOwn;
+    std::shared_ptr<Transformation> made(
+        gdal_.OCTNewCoordinateTransformation(to_own ? system.get() : own, to_own ? own : system.get()),
+        [&gdal = gdal_](OGRCoordinateTransformationH t) { gdal.OCTDestroyCoordinateTransformation(t); });
+    if (made == nullptr) fail(quiet.message("lies in an unknown coordinate system"), "reproject it with gdalwarp");
+    return made;
+  }
+
+  [[nodiscard]] Point transformed(OGRCoordinateTransformationH transformation, Point p) const {
+    const QuietGdal quiet(gdal_);
+    if (gdal_.OCTTransform(transformation, 1, &p.x, &p.y, nullptr) == 0)
+      fail("cannot be placed in the domain's system", "reproject it with gdalwarp");
+    return p;
   }
 
   void set_frame() {

@@ -3,13 +3,31 @@
 #include <cmath>
 
 namespace driftmesh {
+namespace {
 
-std::function<Point(const Point&)> RasterRows::from_zone(const UtmZone& zone) const {
-  const RasterFrame& f = frame();
-  const Point low = f.first,
-              high{low.x + f.dx * static_cast<double>(f.columns - 1), low.y + f.dy * static_cast<double>(f.rows - 1)};
-  const bool degrees = low.x >= -360 && high.x <= 360 && low.y >= -90 && high.y <= 90;
-  if (!degrees) return nullptr;
+Point last_of(const RasterFrame& f) {
+  return {f.first.x + f.dx * static_cast<double>(f.columns - 1), f.first.y + f.dy * static_cast<double>(f.rows - 1)};
+}
+
+bool could_be_degrees(const RasterFrame& f) {
+  const Point low = f.first, high = last_of(f);
+  return low.x >= -360 && high.x <= 360 && low.y >= -90 && high.y <= 90;
+}
+
+}  // namespace
+
+DomainSystem RasterRows::domain_system() const {
+  return {.in_degrees = could_be_degrees(frame())};
+}
+
+PlaceFunction RasterRows::to_zone(const UtmZone& zone) const {
+  if (!could_be_degrees(frame())) return nullptr;
+  return [=](const Point& p) { return utm(p.x, p.y, zone); };
+}
+
+PlaceFunction RasterRows::from_zone(const UtmZone& zone) const {
+  if (!could_be_degrees(frame())) return nullptr;
+  const Point low = frame().first, high = last_of(frame());
   // As the raster counts longitudes, some of which begin at Greenwich.
   const double middle = (low.x + high.x) / 2;
   return [=](const Point& p) {

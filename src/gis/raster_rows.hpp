@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 
 #include "driftmesh/point.hpp"
 #include "gis/transverse_mercator.hpp"
@@ -16,6 +17,16 @@ struct RasterFrame {
   double dx = 0, dy = 0;  ///< > 0
 };
 
+/// From places in one system of coordinates to places in another.
+using PlaceFunction = std::function<Point(const Point&)>;
+
+/// The coordinates of a domain that is made from a raster.
+struct DomainSystem {
+  bool in_degrees = false;      ///< longitudes and latitudes; otherwise coordinates in a plane
+  std::string projection{};     ///< "UTM zone 18N" if they are in a zone on WGS 84; empty: not known, or degrees
+  PlaceFunction from_raster{};  ///< from the raster's coordinates; null: they are the same
+};
+
 /// A raster in a file, to be read once from the top to the bottom.
 class RasterRows {
  public:
@@ -23,9 +34,15 @@ class RasterRows {
   [[nodiscard]] virtual const RasterFrame& frame() const = 0;
   /// From places in a UTM zone to the raster's coordinates; null: they are the same. A file that does not name its
   /// system has longitudes and latitudes if all its coordinates could be some, and is in the zone otherwise.
-  [[nodiscard]] virtual std::function<Point(const Point&)> from_zone(const UtmZone& zone) const;
+  [[nodiscard]] virtual PlaceFunction from_zone(const UtmZone& zone) const;
+  /// The inverse.
+  [[nodiscard]] virtual PlaceFunction to_zone(const UtmZone& zone) const;
   /// Whether the coordinates are Mercator's, whose meters are none (see Mercator).
   [[nodiscard]] virtual bool in_mercator() const { return false; }
+  /// The coordinates that a domain made from the raster should have: those of the raster in degrees, in a UTM zone, or
+  /// in another plane with meters; otherwise longitudes and latitudes on WGS 84. A file that does not name its system
+  /// is judged as from_zone() does.
+  [[nodiscard]] virtual DomainSystem domain_system() const;
   /// Values of row `j` from column `first` on, NaN where there are none. Rows are asked for in descending order, each
   /// at most once. Throws InputError.
   virtual void read(std::int64_t j, std::int64_t first, std::span<float> values) = 0;

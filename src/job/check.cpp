@@ -8,6 +8,7 @@
 
 #include "base/nearest_name.hpp"
 #include "driftmesh/error.hpp"
+#include "job/contour.hpp"
 #include "job/domain.hpp"
 #include "job/keys.hpp"
 #include "pslg/generators.hpp"
@@ -60,6 +61,12 @@ void check_places(const Request& request, PlaceKind place) {
 void check_input(const Request::Input& input) {
   require(input.file.empty() || input.generator.empty(), "input.generate", "names a second domain",
           "remove it or {input.file}");
+  require(input.contour.empty() || (input.file.empty() && input.generator.empty()), "input.contour",
+          "makes the domain, but another one is given", "remove {input.file} and {input.generate}, or it");
+  require(!input.contour.empty() || (input.contour_box.empty() && input.contour_seeds.empty()),
+          input.contour_box.empty() ? "input.contour-seeds" : "input.contour-box", "serves {input.contour} alone",
+          "give a raster and a level by {input.contour}, or remove it");
+  if (!input.contour.empty()) static_cast<void>(contour_of(input));
   require(!input.generator.empty() || input.parameters.empty(), "input.parameters", "needs a model to generate",
           "name one with {input.generate}");
   if (input.generator.empty()) return;
@@ -82,8 +89,10 @@ void check_rasters(const Request& request) {
   if (!depth.empty() && !request.input.rasters.contains(depth))
     throw KeyError("output.depth", "is '" + depth + "', but no raster has this name",
                    "name its file in {input.rasters}");
-  require(request.input.rasters.empty() || !depth.empty() || !request.sizing.expression.empty(), "input.rasters",
-          "serves {sizing.size} and {output.depth}, but neither is given", "give one of them");
+  require(request.input.rasters.empty() || !depth.empty() || !request.sizing.expression.empty() ||
+              !request.input.contour.empty(),
+          "input.rasters", "serves {sizing.size}, {output.depth} and {input.contour}, but none of them is given",
+          "give one of them");
 }
 
 void check_sizes(const Request::Bounds& bounds, const Request::Sizing& sizing) {

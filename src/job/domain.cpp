@@ -10,6 +10,7 @@
 #include "driftmesh/error.hpp"
 #include "driftmesh/files.hpp"
 #include "driftmesh/repair.hpp"
+#include "job/contour.hpp"
 #include "job/files.hpp"
 #include "job/key.hpp"
 #include "mesh/cdt.hpp"
@@ -25,6 +26,7 @@ namespace {
 
 InputFile raw_input(const Request::Input& input, const Given& given) {
   if (given.input != nullptr) return {*given.input, {}, {}};
+  if (!input.contour.empty()) return contour_input(input);
   if (input.generator.empty()) return read_input(input.file, input.layers);
   return {generate(input.generator, input.parameters), {}, {}};
 }
@@ -215,6 +217,7 @@ SizingOptions sizing_of(const Request::Sizing& asked, const Pslg& pslg) {
 std::string input_name(const Request& request) {
   const Request::Input& input = request.input;
   if (!input.file.empty()) return input.file;
+  if (!input.contour.empty()) return contour_files(input);
   if (input.generator.empty()) return "input";
   std::string name = input.generator;
   for (const auto& [parameter, value] : input.parameters) name += " --" + parameter + " " + value;

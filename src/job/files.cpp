@@ -27,7 +27,7 @@ void register_reads(const Request& request, EntryPoint entry_point, FileRegistry
     for (const std::string& path : paths) files.reads(path, called(key, entry_point));
   };
   if (!request.input.file.empty()) reads(input_files(request.input.file), "input.file");
-  for (const auto& [name, file] : request.input.rasters) reads({file}, "input.rasters");
+  for (const auto& [name, text] : request.input.rasters) reads(files_in(text), "input.rasters");
   if (!request.sizing.background.empty()) reads(background_files(request.sizing.background), "sizing.background");
   if (!request.decomposition.file.empty()) reads({request.decomposition.file}, "decomposition.file");
   if (!request.mapping.file.empty()) reads(mapping_files(request.mapping.file), "mapping.file");

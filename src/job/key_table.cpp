@@ -25,6 +25,7 @@ struct Section {
 
 Section input_section() {
   const Names<HoleRule> hole_rules = {{HoleRule::kPoints, "points"}, {HoleRule::kNested, "nested"}};
+  const Names<RasterOrder> raster_orders = {{RasterOrder::kGiven, "given"}, {RasterOrder::kFinest, "finest"}};
   return {
       "Input",
       kAnywhere,
@@ -43,8 +44,29 @@ Section input_section() {
            entry_points(kMesh | kDecompose | kCheck | kExperiment | kPlot)),
        key("input.rasters", &R::input, &R::Input::rasters,
            "A raster, by a name that size expressions and depths use, such as depth=bathymetry.asc: an ESRI ASCII "
-           "grid (.asc), or what GDAL reads (GeoTIFF, netCDF)",
+           "grid (.asc), or what GDAL reads (GeoTIFF, netCDF). Several, with commas between them, are one: gaps and "
+           "the "
+           "outside of the first are filled from the next",
            of_files(), option("raster", "NAME=FILE"), entry_points(kMesh | kDecompose | kCheck | kExperiment | kPlot)),
+       key("input.raster-blend", &R::input, &R::Input::raster_blend,
+           "The width over which several rasters of one name are blended where one of them ends, in the units of the "
+           "domain; at least a spacing of the upper one",
+           from(0), option("raster-blend", "LENGTH"), entry_points(kMesh | kDecompose | kCheck | kExperiment | kPlot)),
+       choice("input.raster-order", &R::input, &R::Input::raster_order, raster_orders,
+              "Which of several rasters of one name counts where they overlap: given (the one that is named first) or "
+              "finest (the one with the smallest spacing)",
+              option("raster-order", "ORDER"), entry_points(kMesh | kDecompose | kCheck | kExperiment | kPlot)),
+       key("input.contour", &R::input, &R::Input::contour,
+           "Make the domain where a raster is above a level, instead of reading a file: depth=0, or below it: "
+           "elevation<0. Sides of the raster are open sea (marker 3), the rest is land (1) and islands (2)",
+           option("contour", "NAME=LEVEL"), entry_points(kMesh | kExperiment)),
+       key("input.contour-box", &R::input, &R::Input::contour_box,
+           "West, south, east and north limits of such a domain, in the coordinates of the raster",
+           option("contour-box", "W,S,E,N"), entry_points(kMesh | kExperiment)),
+       key("input.contour-seeds", &R::input, &R::Input::contour_seeds,
+           "Points in such a domain, in the coordinates of the raster: the parts around them are the domain, "
+           "instead of the largest part",
+           option("contour-seeds", "X,Y,..."), entry_points(kMesh | kExperiment)),
        key("input.snap", &R::input, &R::Input::snap,
            "Join vertices at most this far apart, and vertices with segments that near: closes gaps and slivers of the "
            "input. No vertex moves by more; the report has the largest move. 0: join nothing",

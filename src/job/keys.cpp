@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
+#include <sstream>
 #include <utility>
 
 #include "base/nearest_name.hpp"
@@ -85,6 +87,28 @@ std::vector<std::string> choices_at(const KeyInfo& key, EntryPoint entry_point) 
 bool names_file(const KeyInfo& key, const std::string& text) {
   if (key.kind == Kind::kFile || key.of_files) return !text.empty();
   return !key.or_file.empty() && text.ends_with(key.or_file);
+}
+
+std::vector<std::string> files_in(const std::string& text) {
+  if (std::error_code ignored; std::filesystem::exists(text, ignored)) return {text};
+  std::vector<std::string> files;
+  std::istringstream names(text);
+  for (std::string name; std::getline(names, name, ',');)
+    if (!name.empty()) files.push_back(name);
+  return files;
+}
+
+std::string with_files(const KeyInfo& key, const std::string& text,
+                       const std::function<std::string(const std::string&)>& moved) {
+  if (!names_file(key, text)) return text;
+  std::string whole = moved(text);
+  if (!key.of_files || files_in(whole).size() == 1) return whole;
+  std::string files;
+  for (const std::string& file : files_in(text)) {
+    if (!files.empty()) files += ',';
+    files += moved(file);
+  }
+  return files;
 }
 
 const Key* key_with_code(const Request& request) {

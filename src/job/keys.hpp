@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,14 @@ struct KeyPath {
 
 /// Whether this value of the key is the name of a file that is read.
 [[nodiscard]] bool names_file(const KeyInfo& key, const std::string& text);
+
+/// The files that a value of a table of files names, with commas between them. A file that has some in its own name is
+/// one.
+[[nodiscard]] std::vector<std::string> files_in(const std::string& text);
+
+/// The value with each file that it names replaced by what `moved` makes of it.
+[[nodiscard]] std::string with_files(const KeyInfo& key, const std::string& text,
+                                     const std::function<std::string(const std::string&)>& moved);
 
 /// The key whose value is a file of code, which runs when it is loaded, or null: a policy in a shared library.
 [[nodiscard]] const Key* key_with_code(const Request& request);

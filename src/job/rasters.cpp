@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "gis/transverse_mercator.hpp"
-#include "raster/open_raster.hpp"
+#include "job/keys.hpp"
 #include "raster/raster.hpp"
 
 namespace driftmesh::job {
@@ -27,6 +27,7 @@ void Rasters::write(ByteWriter& writer) const {
     writer.text(name);
     writer.text(file);
   }
+  writer.value(stacking);
   writer.text(projection);
   writer.text(depth);
 }
@@ -37,19 +38,22 @@ Rasters Rasters::read(ByteReader& reader) {
     std::string name = reader.text();
     rasters.files[std::move(name)] = reader.text();
   }
+  rasters.stacking = reader.value<Stacking>();
   rasters.projection = reader.text();
   rasters.depth = reader.text();
   return rasters;
 }
 
 Rasters rasters_of(const Request& request, const std::string& projection) {
-  return {request.input.rasters, projection, request.output.depth, {}};
+  const Stacking stacking{request.input.raster_blend, request.input.raster_order == RasterOrder::kFinest};
+  return {request.input.rasters, stacking, projection, request.output.depth, {}};
 }
 
 std::vector<std::string> open_all(Rasters& rasters, const Box& box, const std::vector<Point>& points) {
   std::vector<std::string> warnings;
   for (const auto& [name, file] : rasters.files) {
-    const OpenedRaster opened = open_raster(file, {box, points, utm_zone_named(rasters.projection)});
+    const OpenedRaster opened =
+        open_rasters(files_in(file), {box, points, utm_zone_named(rasters.projection)}, rasters.stacking);
     rasters.open.push_back({name, opened.raster});
     if (opened.outside > 0 || opened.without > 0) warnings.push_back(warning_of(name, file, opened, points.size()));
   }

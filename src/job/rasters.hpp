@@ -8,15 +8,17 @@
 #include "driftmesh/mesh.hpp"
 #include "geometry/box.hpp"
 #include "job/request.hpp"
+#include "raster/open_raster.hpp"
 #include "sizing/named_raster.hpp"
 
 namespace driftmesh::job {
 
 /// The rasters of a request, for one domain. Each rank opens its own; the threads of a rank share them.
 struct Rasters {
-  std::map<std::string, std::string> files;  ///< by name
-  std::string projection;                    ///< the domain's; see InputFile
-  std::string depth;                         ///< the one that the points of the mesh get values of; empty: none
+  std::map<std::string, std::string> files;  ///< by name, with commas between several
+  Stacking stacking;
+  std::string projection;  ///< the domain's; see InputFile
+  std::string depth;       ///< the one that the points of the mesh get values of; empty: none
   NamedRasters open;
 
   void write(ByteWriter& writer) const;  ///< without what is open

@@ -29,6 +29,9 @@ enum class Method {
   kPdr,        ///< there are none between subdomains: ranks refine one mesh, cell by cell
 };
 
+/// Which of several rasters counts where they overlap.
+enum class RasterOrder { kGiven, kFinest };
+
 /// All settings of a mesh, from a command line, a YAML file, or a program that uses the library. key_table.cpp declares
 /// each member once: its name, unit, range, default, help, and where it applies. Members are grouped as the sections of
 /// a file are. Nothing here is checked yet (see check.hpp).
@@ -45,7 +48,12 @@ struct Request {
     std::map<std::string, std::string> marker_names;  ///< by the numbers of markers
     std::map<std::string, std::string> region_names;  ///< by the attributes of regions
     std::string layers;                               ///< layers in the file, separated by commas; empty: the only one
-    std::map<std::string, std::string> rasters;       ///< their files, by name
+    std::map<std::string, std::string> rasters;       ///< their files, by name, with commas between several
+    double raster_blend = 0;                          ///< the width of seams between them
+    RasterOrder raster_order = RasterOrder::kGiven;
+    std::string contour;              ///< "depth=0": the domain is where this raster is above a level; empty: it is not
+    std::vector<double> contour_box;  ///< west, south, east, north limits of that domain; empty: the whole raster
+    std::vector<double> contour_seeds;  ///< x and y of points in the parts that are meant; empty: the largest part
   } input;
 
   struct Bounds : PlainBounds {

@@ -12,7 +12,7 @@ namespace driftmesh {
 /// A raster in the text format that GIS call ESRI ASCII grid, without any library: lines "ncols 3", "nrows 2",
 /// "xllcorner 0" or "xllcenter 0", likewise for y, "cellsize 1" or "dx 1" and "dy 1", and maybe "NODATA_value -9999",
 /// in any order; then the values, from the northernmost row to the southernmost, from west to east in each.
-class AsciiGrid final : public RasterRows {
+class AsciiGrid : public RasterRows {
  public:
   /// `text` must outlive the object; `file` is for messages. Throws InputError with the line of a fault in the header.
   AsciiGrid(std::string file, std::string_view text);

@@ -1,15 +1,12 @@
 #include "raster/nearest_values.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <vector>
 
-#include "base/mapped_array.hpp"
+#include "raster/nearest_points.hpp"
 
 namespace driftmesh {
 namespace {
-
-constexpr std::int32_t kNone = -1;
 
 std::int64_t count_missing(const TiledGrid& grid) {
   std::int64_t missing = 0;
@@ -18,91 +15,30 @@ std::int64_t count_missing(const TiledGrid& grid) {
   return missing;
 }
 
-/// For each point the row of the nearest value in its column, the lower of two; kNone: the column has none.
-MappedArray<std::int32_t> nearest_rows(const TiledGrid& grid) {
-  const auto [columns, rows, first, dx, dy] = grid.frame();
-  MappedArray<std::int32_t> nearest(static_cast<std::uint64_t>(columns * rows));
-  for (std::int64_t j = 0; j < rows; ++j)
-    for (std::int64_t i = 0; i < columns; ++i) {
-      const auto here = static_cast<std::uint64_t>(j * columns + i);
-      const std::int32_t below = j > 0 ? nearest[here - static_cast<std::uint64_t>(columns)] : kNone;
-      nearest[here] = std::isnan(grid.at(i, j)) ? below : static_cast<std::int32_t>(j);
-    }
-  for (std::int64_t j = rows - 2; j >= 0; --j)
-    for (std::int64_t i = 0; i < columns; ++i) {
-      const auto here = static_cast<std::uint64_t>(j * columns + i);
-      const std::int32_t below = nearest[here], above = nearest[here + static_cast<std::uint64_t>(columns)];
-      if (above != kNone && (below == kNone || above - j < j - below)) nearest[here] = above;
-    }
-  return nearest;
-}
-
-/// The lower envelope of the parabolas offset_k + (width (i - k))^2 over the columns k of a row.
-class Envelope {
- public:
-  explicit Envelope(double width) : width_(width) {}
-
-  void clear() { parabolas_.clear(); }
-  /// Columns in ascending order.
-  void add(std::int64_t column, double offset) {
-    double begin = -std::numeric_limits<double>::infinity();
-    while (!parabolas_.empty()) {
-      begin = crossing(parabolas_.back(), column, offset);
-      if (begin > parabolas_.back().begin) break;
-      parabolas_.pop_back();
-      begin = -std::numeric_limits<double>::infinity();
-    }
-    parabolas_.push_back({column, offset, begin});
-    at_ = 0;
-  }
-  /// The column of the lowest parabola at i, which rises from call to call.
-  [[nodiscard]] std::int64_t lowest_at(std::int64_t i) {
-    while (at_ + 1 < parabolas_.size() && parabolas_[at_ + 1].begin < static_cast<double>(i)) ++at_;
-    return parabolas_[at_].column;
-  }
-  [[nodiscard]] bool empty() const { return parabolas_.empty(); }
-
- private:
-  struct Parabola {
-    std::int64_t column;
-    double offset;
-    double begin;  // start of the part where it is the lowest
-  };
-  [[nodiscard]] double crossing(const Parabola& left, std::int64_t column, double offset) const {
-    const auto a = static_cast<double>(left.column), b = static_cast<double>(column);
-    return (a + b) / 2 + (offset - left.offset) / (2 * width_ * width_ * (b - a));
-  }
-
-  double width_;
-  std::vector<Parabola> parabolas_;
-  std::size_t at_ = 0;
-};
-
 }  // namespace
 
 std::int64_t fill_from_nearest(TiledGrid& grid, double width, double height) {
-  const std::int64_t columns = grid.frame().columns, rows = grid.frame().rows;
   const std::int64_t missing = count_missing(grid);
-  if (missing == 0 || missing == columns * rows) return missing;
-  const MappedArray<std::int32_t> nearest = nearest_rows(grid);
-  const auto row_near = [&](std::int64_t i, std::int64_t j) {
-    return nearest[static_cast<std::uint64_t>(j * columns + i)];
-  };
-  Envelope envelope(width);
-  for (std::int64_t j = 0; j < rows; ++j) {
-    envelope.clear();
-    for (std::int64_t i = 0; i < columns; ++i)
-      if (const std::int32_t row = row_near(i, j); row != kNone) {
-        const double away = height * static_cast<double>(row - j);
-        envelope.add(i, away * away);
-      }
-    for (std::int64_t i = 0; i < columns; ++i) {
-      const std::int64_t from = envelope.lowest_at(i);
-      // What has a value is the nearest to itself, so that no value is taken that was filled in.
-      if (row_near(i, j) != j) grid.set(i, j, grid.at(from, row_near(from, j)));
-    }
-  }
+  if (missing == 0) return 0;
+  for_each_nearest(
+      grid, width, height, [](float value) { return !std::isnan(value); },
+      [&](std::int64_t i, std::int64_t j, std::int64_t near_i, std::int64_t near_j) {
+        // What has a value is the nearest to itself, so that no value is taken that was filled in.
+        if (near_j != j || near_i != i) grid.set(i, j, grid.at(near_i, near_j));
+      });
   return missing;
+}
+
+TiledGrid shares_of(const TiledGrid& grid, double width, double height, double ramp) {
+  TiledGrid shares(grid.frame());
+  for_each_nearest(
+      grid, width, height, [](float value) { return std::isnan(value); },
+      [&](std::int64_t i, std::int64_t j, std::int64_t near_i, std::int64_t near_j) {
+        const double away =
+            std::hypot(width * static_cast<double>(i - near_i), height * static_cast<double>(j - near_j));
+        shares.set(i, j, static_cast<float>(std::min(away / ramp, 1.0)));
+      });
+  return shares;
 }
 
 }  // namespace driftmesh

@@ -6,11 +6,12 @@
 
 namespace driftmesh {
 
-/// Gives every point of a grid without a value (NaN) that of the nearest point that has one, where `width` and `height`
-/// are the distances between columns and between rows; of several at the same distance that of the lowest column, then
-/// row. Returns how many had none; if all, nothing changes. Takes time in proportion to the grid (Meijster, Roerdink
-/// and Hesselink, "A general algorithm for computing distance transforms in linear time", 2000, with parabolas as
-/// Felzenszwalb and Huttenlocher do).
+/// Gives every point of a grid without a value (NaN) that of the nearest point that has one (see for_each_nearest).
+/// Returns how many had none; if all, nothing changes.
 std::int64_t fill_from_nearest(TiledGrid& grid, double width, double height);
+
+/// How much the values of a grid count where other values meet them: 0 at points without a value (NaN), of which there
+/// is at least one, rising to 1 at the distance `ramp` from the nearest of these.
+[[nodiscard]] TiledGrid shares_of(const TiledGrid& grid, double width, double height, double ramp);
 
 }  // namespace driftmesh

@@ -2,16 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
 
-#include "base/file_bytes.hpp"
 #include "driftmesh/error.hpp"
-#include "gis/raster_file.hpp"
-#include "raster/ascii_grid.hpp"
+#include "raster/mosaic_rows.hpp"
 #include "raster/nearest_values.hpp"
+#include "raster/raster_source.hpp"
+#include "raster/raster_stack.hpp"
 #include "raster/resample.hpp"
 
 namespace driftmesh {
@@ -24,12 +24,13 @@ Box widened(const Box& box) {
   return {{box.low.x - more, box.low.y - more}, {box.high.x + more, box.high.y + more}};
 }
 
-/// Numbers of the values from `low` to `high` where the first value is `first`, and two more on both sides.
+/// Numbers of the values from `low` to `high` where the first value is `first`, and two more on both sides; of those
+/// that the raster does not have, `beyond` on both sides.
 std::pair<std::int64_t, std::int64_t> range_of(double low, double high, double first, double spacing,
-                                               std::int64_t count) {
+                                               std::int64_t count, std::int64_t beyond) {
   const auto steps = [&](double x) { return std::clamp((x - first) / spacing, -1.0, static_cast<double>(count)); };
-  return {std::max<std::int64_t>(static_cast<std::int64_t>(std::floor(steps(low))) - 2, 0),
-          std::min<std::int64_t>(static_cast<std::int64_t>(std::ceil(steps(high))) + 2, count - 1)};
+  return {std::max(static_cast<std::int64_t>(std::floor(steps(low))) - 2, -beyond),
+          std::min(static_cast<std::int64_t>(std::ceil(steps(high))) + 2, count - 1 + beyond)};
 }
 
 /// The whole of a raster, with the half cells at its rim.
@@ -39,10 +40,10 @@ Box extent_of(const RasterFrame& f) {
            f.first.y + (static_cast<double>(f.rows) - 0.5) * f.dy}};
 }
 
-TiledGrid read_window(RasterRows& rows, const Box& window) {
+TiledGrid read_window(RasterRows& rows, const Box& window, std::int64_t beyond = 0) {
   const RasterFrame& whole = rows.frame();
-  const auto [left, right] = range_of(window.low.x, window.high.x, whole.first.x, whole.dx, whole.columns);
-  const auto [bottom, top] = range_of(window.low.y, window.high.y, whole.first.y, whole.dy, whole.rows);
+  const auto [left, right] = range_of(window.low.x, window.high.x, whole.first.x, whole.dx, whole.columns, beyond);
+  const auto [bottom, top] = range_of(window.low.y, window.high.y, whole.first.y, whole.dy, whole.rows, beyond);
   RasterFrame frame = whole;
   frame.first = {whole.first.x + static_cast<double>(left) * whole.dx,
                  whole.first.y + static_cast<double>(bottom) * whole.dy};
@@ -80,56 +81,221 @@ bool wraps(const Box& window) {
 }
 
 /// Throws LimitError with the name of the file if its values are absurdly dense.
-std::shared_ptr<const Raster> resampled(const Raster& raster, const PlaceMap& to_source, const Box& domain,
-                                        const std::string& path) {
+TiledGrid resampled(TiledGrid grid, const PlaceMap& to_source, const Box& domain, const std::string& path) {
   try {
-    return std::make_shared<const Raster>(resample(raster, to_source, domain));
+    return resample(GridRaster(std::move(grid)), to_source, domain);
   } catch (const LimitError& error) {
     throw LimitError(path + ": " + error.what());
   }
 }
 
-}  // namespace
+/// Where a domain is in the coordinates of a raster.
+struct Placed {
+  PlaceMap to_source;  // null: they are the same
+  Box domain;          // with a margin
+  Box window;          // the same in the raster's coordinates
+};
 
-OpenedRaster open_raster(const std::string& path, const RasterPlace& place) {
-  std::optional<FileBytes> bytes;
-  std::unique_ptr<RasterRows> rows;
-  if (std::filesystem::path(path).extension() == ".asc")
-    rows = std::make_unique<AsciiGrid>(path, bytes.emplace(path).view());
-  else
-    rows = open_raster_file(path);
-  if (!place.zone && rows->in_mercator())
+Placed placed(const RasterRows& rows, const std::string& path, const RasterPlace& place) {
+  if (!place.zone && rows.in_mercator())
     throw InputError(
         {path}, "is in Mercator's projection, whose meters are none, and the domain does not say where it is",
         "give the domain in degrees or in a UTM zone (GeoJSON, .shp), or reproject the raster with gdalwarp");
-  PlaceMap to_source;
-  if (place.zone) to_source = rows->from_zone(*place.zone);
-  const Box domain = widened(place.domain);
-  const Box window = to_source ? image_of(domain, to_source) : domain;
-  if (to_source && wraps(window))
+  Placed found;
+  if (place.zone) found.to_source = rows.from_zone(*place.zone);
+  found.domain = widened(place.domain);
+  found.window = found.to_source ? image_of(found.domain, found.to_source) : found.domain;
+  return found;
+}
+
+[[noreturn]] void refuse_elsewhere(const std::string& path, const RasterPlace& place) {
+  throw InputError({path}, "lies elsewhere than the domain",
+                   place.zone ? "its coordinates must be those of the domain or name their system"
+                              : "its coordinates must be those of the domain, whose system is not known");
+}
+
+[[noreturn]] void refuse_without_values(const std::string& path) {
+  throw InputError({path}, "has no value in or near the domain", "give one that covers it");
+}
+
+void refuse_wrapped(const std::string& path, const Placed& at) {
+  if (at.to_source && wraps(at.window))
     throw InputError({path}, "ends within the domain, where longitudes go once around the globe",
                      "give one whose longitudes count on there: gdalwarp -t_srs '+proj=longlat +lon_wrap=180'");
-  const Box extent = extent_of(rows->frame());
-  if (!window.overlaps(extent))
-    throw InputError({path}, "lies elsewhere than the domain",
-                     place.zone ? "its coordinates must be those of the domain or name their system"
-                                : "its coordinates must be those of the domain, whose system is not known");
-  TiledGrid grid = read_window(*rows, window);
-  OpenedRaster opened;
-  for (const Point& p : place.points) {
-    const Point q = to_source ? to_source(p) : p;
-    if (!extent.contains(q))
-      ++opened.outside;
-    else if (!has_value_at(grid, q))
-      ++opened.without;
+}
+
+enum class Cover : unsigned char { kOutside, kWithout, kValue };
+
+/// What a raster has at points, where those before it have no value.
+void note_cover(const TiledGrid& grid, const Box& extent, const PlaceMap& to_source, std::span<const Point> points,
+                std::vector<Cover>& covers) {
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (covers[k] == Cover::kValue) continue;
+    const Point q = to_source ? to_source(points[k]) : points[k];
+    if (extent.contains(q)) covers[k] = has_value_at(grid, q) ? Cover::kValue : Cover::kWithout;
   }
+}
+
+OpenedRaster opened(std::shared_ptr<const Raster> raster, const std::vector<Cover>& covers) {
+  const auto count = [&](Cover what) { return static_cast<std::size_t>(std::ranges::count(covers, what)); };
+  return {std::move(raster), count(Cover::kOutside), count(Cover::kWithout)};
+}
+
+// ---- Several rasters ---------------------------------------------------------------------------------------------
+
+/// A raster that overlaps the domain.
+struct NearTile {
+  RasterTile tile;
+  double spacing;               // the greater one, in the units of the domain
+  std::optional<Point> center;  // of the domain in its coordinates; absent: they are the same
+};
+
+Box box_of(const RasterFrame& f) {
+  return {f.first,
+          {f.first.x + static_cast<double>(f.columns - 1) * f.dx, f.first.y + static_cast<double>(f.rows - 1) * f.dy}};
+}
+
+/// The distances in the domain between the columns and between the rows of a raster around a place.
+std::pair<double, double> spacings_in(const RasterFrame& frame, const Point& at, const PlaceMap& from_source) {
+  if (!from_source) return {frame.dx, frame.dy};
+  const Point here = from_source(at), east = from_source({at.x + frame.dx, at.y}),
+              north = from_source({at.x, at.y + frame.dy});
+  return {std::hypot(east.x - here.x, east.y - here.y), std::hypot(north.x - here.x, north.y - here.y)};
+}
+
+Box common_part(const Box& a, const Box& b) {
+  return {{std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)},
+          {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y)}};
+}
+
+PlaceMap map_to_zone(const RasterRows& rows, const RasterPlace& place) {
+  return place.zone ? rows.to_zone(*place.zone) : nullptr;
+}
+
+std::vector<NearTile> near_tiles(const std::vector<std::string>& paths, const RasterPlace& place) {
+  std::vector<NearTile> tiles;
+  for (const std::string& path : paths) {
+    const std::unique_ptr<RasterRows> rows = open_raster_rows(path);
+    const Placed at = placed(*rows, path, place);
+    const Box extent = extent_of(rows->frame());
+    if (!at.window.overlaps(extent)) continue;
+    refuse_wrapped(path, at);
+    const auto [across, upward] =
+        spacings_in(rows->frame(), common_part(extent, at.window).center(), map_to_zone(*rows, place));
+    NearTile& tile = tiles.emplace_back(NearTile{{path, rows->frame()}, std::max(across, upward), {}});
+    if (at.to_source) tile.center = at.to_source(place.domain.center());
+  }
+  if (tiles.empty()) refuse_elsewhere(paths.front(), place);
+  return tiles;
+}
+
+bool in_one_system(const NearTile& a, const NearTile& b) {
+  if (!a.center || !b.center) return !a.center && !b.center;
+  const auto same = [](double x, double y) { return std::abs(x - y) <= 1e-9 * (1 + std::abs(x)); };
+  return same(a.center->x, b.center->x) && same(a.center->y, b.center->y);
+}
+
+double count_in(const RasterFrame& frame) {
+  return static_cast<double>(frame.columns) * static_cast<double>(frame.rows);
+}
+
+/// Neighbors in the list that are one grid, unless this would be mostly empty.
+std::vector<std::vector<RasterTile>> mosaics_of(const std::vector<NearTile>& tiles) {
+  constexpr double kMostEmpty = 8;  // as many points as the tiles have
+  std::vector<std::vector<RasterTile>> mosaics;
+  RasterFrame around;
+  double points = 0;
+  for (std::size_t k = 0; k < tiles.size(); ++k) {
+    const RasterTile& tile = tiles[k].tile;
+    bool joins = k > 0 && in_one_system(tiles[k - 1], tiles[k]) && on_one_grid(around, tile.frame);
+    if (joins) {
+      const RasterFrame both = frame_around(around, tile.frame);
+      joins = count_in(both) <= kMostEmpty * (points + count_in(tile.frame));
+      if (joins) around = both;
+    }
+    if (!joins) {
+      mosaics.emplace_back();
+      around = tile.frame;
+      points = 0;
+    }
+    mosaics.back().push_back(tile);
+    points += count_in(tile.frame);
+  }
+  return mosaics;
+}
+
+/// Where shares are not 0: they are beyond a side of their grid that has nothing else.
+Box reach_of(const TiledGrid& shares) {
+  constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+  const std::int64_t columns = shares.frame().columns, rows = shares.frame().rows;
+  Box reach = box_of(shares.frame());
+  for (std::int64_t i = 0; i < columns; ++i) {
+    if (shares.at(i, 0) > 0) reach.low.y = -kUnbounded;
+    if (shares.at(i, rows - 1) > 0) reach.high.y = kUnbounded;
+  }
+  for (std::int64_t j = 0; j < rows; ++j) {
+    if (shares.at(0, j) > 0) reach.low.x = -kUnbounded;
+    if (shares.at(columns - 1, j) > 0) reach.high.x = kUnbounded;
+  }
+  return reach;
+}
+
+/// The layer of a raster; none if it has no value near the domain.
+std::optional<RasterStack::Layer> read_layer(RasterRows& rows, const std::string& path, const RasterPlace& place,
+                                             double blend, std::vector<Cover>& covers) {
+  const Placed at = placed(rows, path, place);
+  TiledGrid grid = read_window(rows, at.window, 1);
+  note_cover(grid, extent_of(rows.frame()), at.to_source, place.points, covers);
+  const PlaceMap from_source = map_to_zone(rows, place);
+  const RasterFrame frame = grid.frame();
+  const Box own = box_of(frame);
+  const auto [across, upward] = spacings_in(frame, common_part(own, at.window).center(), from_source);
+  TiledGrid shares = shares_of(grid, across, upward, std::max({blend, across, upward}));
+  const std::int64_t missing = fill_from_nearest(grid, across, upward);
+  if (missing == frame.columns * frame.rows) return std::nullopt;
+  const Box target = at.to_source ? common_part(at.domain, image_of(own, from_source)) : own;
+  const auto in_domain = [&](TiledGrid values) {
+    return at.to_source ? resampled(std::move(values), at.to_source, target, path) : std::move(values);
+  };
+  const auto values = std::make_shared<const GridRaster>(in_domain(std::move(grid)));
+  if (missing == 0) return RasterStack::Layer{values, nullptr, {}};
+  shares = in_domain(std::move(shares));
+  const Box reach = reach_of(shares);
+  return RasterStack::Layer{values, std::make_shared<const GridRaster>(std::move(shares)), reach};
+}
+
+}  // namespace
+
+OpenedRaster open_raster(const std::string& path, const RasterPlace& place) {
+  const std::unique_ptr<RasterRows> rows = open_raster_rows(path);
+  const Placed at = placed(*rows, path, place);
+  refuse_wrapped(path, at);
+  const Box extent = extent_of(rows->frame());
+  if (!at.window.overlaps(extent)) refuse_elsewhere(path, place);
+  TiledGrid grid = read_window(*rows, at.window);
+  std::vector<Cover> covers(place.points.size(), Cover::kOutside);
+  note_cover(grid, extent, at.to_source, place.points, covers);
   const std::int64_t values = grid.frame().columns * grid.frame().rows;
-  const double width = grid.frame().dx * (to_source ? narrowing(window) : 1);
-  if (fill_from_nearest(grid, width, grid.frame().dy) == values)
-    throw InputError({path}, "has no value in or near the domain", "give one that covers it");
-  opened.raster = std::make_shared<const Raster>(std::move(grid));
-  if (to_source) opened.raster = resampled(*opened.raster, to_source, domain, path);
-  return opened;
+  const double width = grid.frame().dx * (at.to_source ? narrowing(at.window) : 1);
+  if (fill_from_nearest(grid, width, grid.frame().dy) == values) refuse_without_values(path);
+  if (at.to_source) grid = resampled(std::move(grid), at.to_source, at.domain, path);
+  return opened(std::make_shared<const GridRaster>(std::move(grid)), covers);
+}
+
+OpenedRaster open_rasters(const std::vector<std::string>& paths, const RasterPlace& place, const Stacking& how) {
+  if (paths.size() == 1) return open_raster(paths.front(), place);
+  std::vector<NearTile> tiles = near_tiles(paths, place);
+  if (how.finest_first) std::ranges::stable_sort(tiles, {}, &NearTile::spacing);
+  std::vector<Cover> covers(place.points.size(), Cover::kOutside);
+  std::vector<RasterStack::Layer> layers;
+  for (std::vector<RasterTile>& mosaic : mosaics_of(tiles)) {
+    const std::string path = mosaic.front().path;
+    MosaicRows rows(std::move(mosaic));
+    if (auto layer = read_layer(rows, path, place, how.blend, covers)) layers.push_back(std::move(*layer));
+    if (!layers.empty() && !layers.back().share) break;  // what is below is not seen
+  }
+  if (layers.empty()) refuse_without_values(paths.front());
+  return opened(std::make_shared<const RasterStack>(std::move(layers)), covers);
 }
 
 }  // namespace driftmesh

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "driftmesh/point.hpp"
 #include "gis/transverse_mercator.hpp"
@@ -37,5 +38,19 @@ struct OpenedRaster {
 /// Errors: FileError, and InputError for a damaged file, one that does not overlap the domain, and one without values
 /// there.
 [[nodiscard]] OpenedRaster open_raster(const std::string& path, const RasterPlace& place);
+
+/// How several rasters become one function.
+struct Stacking {
+  double blend = 0;  ///< the width of seams, in the units of the domain; at least a spacing of the upper raster
+  bool finest_first = false;  ///< in the order of their spacings, not as given
+};
+
+/// Several rasters as one: the first on top, its gaps and what is outside of it filled from the next ones, with seams
+/// where the share of the upper one rises from 0 at its gaps and sides to 1 (see RasterStack). What none has gets the
+/// nearest value of the last one. Neighbors in the order that are on one grid, as tiles are, are one raster without
+/// seams. Files are read one after the other, each open only while its rows are needed; those that do not overlap the
+/// domain are left out. Errors as open_raster: it is enough that one has values in the domain.
+[[nodiscard]] OpenedRaster open_rasters(const std::vector<std::string>& paths, const RasterPlace& place,
+                                        const Stacking& how);
 
 }  // namespace driftmesh

@@ -50,22 +50,22 @@ Around points_around(double low, double high, std::int64_t count) {
 
 }  // namespace
 
-Raster::Raster(TiledGrid grid)
+GridRaster::GridRaster(TiledGrid grid)
     : grid_(std::move(grid)),
       pyramid_(grid_),
       largest_(pyramid_.over(grid_, 0, 0, frame().columns - 1, frame().rows - 1)),
       rounding_(4 * kTouch * std::max(std::abs(largest_.low), std::abs(largest_.high))) {}
 
-double Raster::column_at(double x) const {
+double GridRaster::column_at(double x) const {
   return steps_to(x, frame().first.x, frame().dx, frame().columns);
 }
 
-double Raster::row_at(double y) const {
+double GridRaster::row_at(double y) const {
   return steps_to(y, frame().first.y, frame().dy, frame().rows);
 }
 
 /// At a place in steps from the first point.
-double Raster::value(double u, double v) const {
+double GridRaster::value(double u, double v) const {
   const auto i = static_cast<std::int64_t>(u), j = static_cast<std::int64_t>(v);
   const std::int64_t right = std::min(i + 1, frame().columns - 1), above = std::min(j + 1, frame().rows - 1);
   const double s = u - static_cast<double>(i), t = v - static_cast<double>(j);
@@ -74,11 +74,11 @@ double Raster::value(double u, double v) const {
   return std::clamp(low + (high - low) * t, std::min({a, b, c, d}), std::max({a, b, c, d}));  // rounding aside
 }
 
-double Raster::at(const Point& p) const {
+double GridRaster::at(const Point& p) const {
   return value(column_at(p.x), row_at(p.y));
 }
 
-Extent Raster::over(const Box& box) const {
+Extent GridRaster::over(const Box& box) const {
   const std::array<double, 4> steps{column_at(box.low.x), row_at(box.low.y), column_at(box.high.x), row_at(box.high.y)};
   if (steps[2] - steps[0] <= kFewSteps && steps[3] - steps[1] <= kFewSteps) return exact_over(steps);
   const Around i = points_around(steps[0], steps[2], frame().columns),
@@ -88,7 +88,7 @@ Extent Raster::over(const Box& box) const {
 }
 
 /// On a rectangle within four points of the grid, a bilinear function is extreme at corners.
-Extent Raster::exact_over(const std::array<double, 4>& steps) const {
+Extent GridRaster::exact_over(const std::array<double, 4>& steps) const {
   Extent found{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   const auto next = [](double from, double last) {
     return from < last ? std::min(std::floor(from) + 1, last) : last + 1;
@@ -102,7 +102,7 @@ Extent Raster::exact_over(const std::array<double, 4>& steps) const {
 }
 
 /// Within four points of the grid, slopes in one direction are linear in the other.
-Raster::Slopes Raster::slopes_over(const Box& box) const {
+Raster::Slopes GridRaster::slopes_over(const Box& box) const {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   const std::array<double, 4> steps{column_at(box.low.x), row_at(box.low.y), column_at(box.high.x), row_at(box.high.y)};
   if (!(steps[2] - steps[0] <= kManySteps && steps[3] - steps[1] <= kManySteps)) return {{-kFar, kFar}, {-kFar, kFar}};
@@ -127,8 +127,8 @@ Raster::Slopes Raster::slopes_over(const Box& box) const {
   return {scaled(rises, frame().dx), scaled(climbs, frame().dy)};
 }
 
-std::shared_ptr<const Raster> Raster::slope() const {
-  std::call_once(has_slope_, [this] { slope_ = std::make_shared<const Raster>(slopes_of(grid_)); });
+std::shared_ptr<const Raster> GridRaster::slope() const {
+  std::call_once(has_slope_, [this] { slope_ = std::make_shared<const GridRaster>(slopes_of(grid_)); });
   return slope_;
 }
 

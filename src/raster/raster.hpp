@@ -10,32 +10,43 @@
 
 namespace driftmesh {
 
-/// Values on a grid as a continuous function of position: bilinear between four points of the grid, and outside of the
-/// grid that of its nearest point. Queries depend on their arguments alone and may run in several threads at once.
+/// Values as a continuous function of position. Queries depend on their arguments alone and may run in several threads
+/// at once.
 class Raster {
  public:
-  /// All values are finite.
-  explicit Raster(TiledGrid grid);
-
-  [[nodiscard]] const RasterFrame& frame() const { return grid_.frame(); }
-  /// The value at a point: never beyond those at the four points of the grid around it.
-  [[nodiscard]] double at(const Point& p) const;
-  /// Holds at(p) for all points of a box, whose ends may be infinite: exact but for rounding if the box extends over
-  /// few points of the grid, and otherwise the least and greatest values of blocks of the grid.
-  [[nodiscard]] Extent over(const Box& box) const;
-
   /// Slopes along lines parallel to the axes.
   struct Slopes {
     Extent in_x, in_y;
   };
-  /// Hold all slopes of at() between points of a box that are not closer to its border than rounding could move a line
-  /// of the grid, exactly if it extends over few points of the grid; infinite for larger boxes.
-  [[nodiscard]] Slopes slopes_over(const Box& box) const;
 
-  /// The slope of the values: the length of the gradient, per unit of length of the coordinates. At points of the grid
-  /// by differences of their neighbors' values (one-sided at its rim), bilinear in between. Is made when it is first
-  /// asked for.
-  [[nodiscard]] std::shared_ptr<const Raster> slope() const;
+  virtual ~Raster() = default;
+  [[nodiscard]] virtual double at(const Point& p) const = 0;
+  /// Holds at(p) for all points of a box, whose ends may be infinite.
+  [[nodiscard]] virtual Extent over(const Box& box) const = 0;
+  /// Hold all slopes of at() between points of a box that are not closer to its border than rounding could move a line
+  /// of a grid; infinite for large boxes.
+  [[nodiscard]] virtual Slopes slopes_over(const Box& box) const = 0;
+  /// The slope of the values: the length of the gradient, per unit of length of the coordinates. Is made when it is
+  /// first asked for.
+  [[nodiscard]] virtual std::shared_ptr<const Raster> slope() const = 0;
+};
+
+/// Values on a grid: bilinear between four points of the grid, and outside of the grid that of its nearest point.
+class GridRaster final : public Raster {
+ public:
+  /// All values are finite.
+  explicit GridRaster(TiledGrid grid);
+
+  [[nodiscard]] const RasterFrame& frame() const { return grid_.frame(); }
+  /// Never beyond the values at the four points of the grid around it.
+  [[nodiscard]] double at(const Point& p) const override;
+  /// Exact but for rounding if the box extends over few points of the grid, and otherwise the least and greatest values
+  /// of blocks of the grid.
+  [[nodiscard]] Extent over(const Box& box) const override;
+  /// Exact if the box extends over few points of the grid.
+  [[nodiscard]] Slopes slopes_over(const Box& box) const override;
+  /// At points of the grid by differences of their neighbors' values (one-sided at its rim), bilinear in between.
+  [[nodiscard]] std::shared_ptr<const Raster> slope() const override;
 
  private:
   [[nodiscard]] double value(double u, double v) const;

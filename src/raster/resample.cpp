@@ -37,7 +37,7 @@ Point between(const Point& a, const Point& b, double t) {
 
 }  // namespace
 
-TiledGrid resample(const Raster& source, const PlaceMap& to_source, const Box& box) {
+TiledGrid resample(const GridRaster& source, const PlaceMap& to_source, const Box& box) {
   const double size = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
   TiledGrid grid(frame_over(box, spacing_at(box.center(), source.frame(), to_source, size / 256)));
   const RasterFrame& frame = grid.frame();

@@ -15,7 +15,7 @@ using PlaceMap = std::function<Point(const Point&)>;
 /// `to_source`: smooth, from these coordinates to those of the raster. It is asked at every sixteenth point in each
 /// direction, and is linear in between, which for map projections changes places by less than a hundredth of the
 /// spacing for spacings up to ten kilometers.
-[[nodiscard]] TiledGrid resample(const Raster& source, const PlaceMap& to_source, const Box& box);
+[[nodiscard]] TiledGrid resample(const GridRaster& source, const PlaceMap& to_source, const Box& box);
 
 /// Around the image of a box, as far as points along its rim tell, and a hundredth of its size more.
 [[nodiscard]] Box image_of(const Box& box, const PlaceMap& map);

@@ -101,7 +101,7 @@ TEST_CASE("values are those of the four points around, and bounds hold them") {
   Random random = seeded_generator("raster values");
   for (std::int64_t tried = 0; more_cases(tried, 400, true); ++tried) {
     const Drawn drawn = random_raster(random, tried % 8 == 0 ? 150 : 20);
-    const Raster raster(drawn.grid());
+    const GridRaster raster(drawn.grid());
     const double scale = std::abs(*std::ranges::max_element(drawn.values, {}, [](float v) { return std::abs(v); }));
     const std::shared_ptr<const Raster> slope = raster.slope();
     for (int k = 0; k < 20; ++k) {
@@ -292,7 +292,7 @@ TEST_CASE("limited growth is the least of a grid, whatever was asked before, and
   int limited = 0, surely = 0;
   for (std::int64_t tried = 0; more_cases(tried, 12, limited > 100 && surely > 100); ++tried) {
     const Drawn drawn = random_basin(random);
-    const NamedRasters rasters{{"depth", std::make_shared<const Raster>(drawn.grid())}};
+    const NamedRasters rasters{{"depth", std::make_shared<const GridRaster>(drawn.grid())}};
     Pslg pslg = square(100);
     for (Pslg::Segment& s : pslg.segments) s.marker = static_cast<std::int32_t>(1 + random() % 3);
     pslg.segments.front().marker = 1;

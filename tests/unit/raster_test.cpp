@@ -120,7 +120,7 @@ TEST_CASE("the slope of a plane is the same everywhere") {
   for (std::int64_t j = 0; j < 5; ++j)
     for (std::int64_t i = 0; i < 7; ++i)
       grid.set(i, j, static_cast<float>(0.5 * grid.point(i, j).x - 0.25 * grid.point(i, j).y));
-  const Raster raster(std::move(grid));
+  const GridRaster raster(std::move(grid));
   const double slope = std::hypot(0.5, 0.25);
   CHECK(raster.slope()->at({100, -50}) == doctest::Approx(slope).epsilon(1e-6));
   CHECK(raster.slope()->at({107.1, -43.2}) == doctest::Approx(slope).epsilon(1e-6));
@@ -188,7 +188,7 @@ TEST_CASE("a raster in degrees is resampled to the domain's zone") {
     const OpenedRaster opened = open_raster(written(folder, text), {Box::of(points), points, zone});
     CHECK(opened.outside == 0);
     CHECK(opened.without == 0);
-    CHECK(opened.raster->frame().dx == 512);
+    CHECK(dynamic_cast<const GridRaster&>(*opened.raster).frame().dx == 512);
     double worst = 0;
     for (double longitude = -76.4; longitude < -75.6; longitude += 0.0173)
       for (double latitude = 37.1; latitude < 37.9; latitude += 0.0191) {
