@@ -22,8 +22,8 @@ struct SimplifyReport {
 ///   and every point of that segment within `tolerance` of the line.
 /// - Lines do not cross, touch or change sides with each other, with isolated points, or with the seeds of holes and
 ///   regions; so holes remain holes, islands lie in the same water, and repair() has nothing to do.
-/// - New segments do not come closer than a quarter of `tolerance` to points that were farther away, and lines do not
-///   turn sharper than 60 degrees where they did not.
+/// - New segments do not come closer than a quarter of `tolerance` to points that were farther away, and keep nine
+///   tenths of smaller distances. Lines do not turn sharper than 60 degrees where they did not.
 /// - Ends of lines, points where three or more meet, and those where the marker of segments or points changes, stay.
 /// - Closed rings without such points that fit into a square of side `tolerance`, with all that is inside, are dropped
 ///   with the seeds of holes and regions inside them. Rings of polygons lose the same points; a polygon without its

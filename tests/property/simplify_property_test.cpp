@@ -256,3 +256,29 @@ TEST_CASE("ends, junctions and changes of markers stay") {
   CHECK(pslg.segments ==
         std::vector<Pslg::Segment>{{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 4, 1}, {4, 5, 1}, {5, 6, 2}, {4, 7, 1}});
 }
+
+TEST_CASE("a point next to the end of a line goes, though the line then comes a little closer to others") {
+  // A coast that meets the frame of a map, where its marker changes, with one of its points just before.
+  std::mt19937_64 random = seeded_generator("ends at frames");
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  for (std::int64_t tried = 0; more_cases(tried, 200, true); ++tried) {
+    Pslg pslg;
+    const double off = uniform(0.1, 5), angle = uniform(2, 4.2);
+    pslg.points = {{-9000, 3000},
+                   {uniform(-1500, -900), uniform(-400, 400)},
+                   {off * std::cos(angle), off * std::sin(angle)},
+                   {0, 0},
+                   {0, -uniform(60, 240)},
+                   {-1500, -900},
+                   {-3000, -6000},
+                   {-9000, -6000}};
+    for (int k = 0; k < 8; ++k) pslg.segments.push_back({k, (k + 1) % 8, k == 0 ? 2 : k == 3 ? 3 : 1});
+    CAPTURE(off);
+    CAPTURE(angle);
+    const SimplifyReport report = simplify(pslg, 1000);
+    CHECK(std::ranges::find(report.original_point, 2) == report.original_point.end());
+    CHECK(std::ranges::find(report.original_point, 4) != report.original_point.end());
+  }
+}
