@@ -114,13 +114,13 @@ Contour contour_of(const Request::Input& input) {
 }
 
 std::string contour_files(const Request::Input& input) {
-  return input.rasters.at(contour_of(input).raster);
+  return words_of_files(input.rasters.at(contour_of(input).raster));
 }
 
 InputFile contour_input(const Request::Input& input) {
   const Contour contour = contour_of(input);
-  const std::string& file = input.rasters.at(contour.raster);
-  const std::unique_ptr<RasterRows> rows = open_mosaic(files_in(file));
+  const std::string file = contour_files(input);
+  const std::unique_ptr<RasterRows> rows = open_mosaic(files_in(input.rasters.at(contour.raster)));
   const Window window = window_of(rows->frame(), input.contour_box);
   std::vector<LevelPart> parts;
   if (window.frame.columns > 1 && window.frame.rows > 1) parts = trace(*rows, window, contour);

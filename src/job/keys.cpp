@@ -98,6 +98,12 @@ std::vector<std::string> files_in(const std::string& text) {
   return files;
 }
 
+std::string words_of_files(const std::string& text) {
+  const std::vector<std::string> files = files_in(text);
+  if (files.size() < 2) return text;
+  return files.front() + " and " + std::to_string(files.size() - 1) + " more";
+}
+
 std::string with_files(const KeyInfo& key, const std::string& text,
                        const std::function<std::string(const std::string&)>& moved) {
   if (!names_file(key, text)) return text;

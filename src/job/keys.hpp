@@ -36,6 +36,9 @@ struct KeyPath {
 /// one.
 [[nodiscard]] std::vector<std::string> files_in(const std::string& text);
 
+/// The same in a message: "a.tif and 9 more".
+[[nodiscard]] std::string words_of_files(const std::string& text);
+
 /// The value with each file that it names replaced by what `moved` makes of it.
 [[nodiscard]] std::string with_files(const KeyInfo& key, const std::string& text,
                                      const std::function<std::string(const std::string&)>& moved);

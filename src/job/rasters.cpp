@@ -55,7 +55,8 @@ std::vector<std::string> open_all(Rasters& rasters, const Box& box, const std::v
     const OpenedRaster opened =
         open_rasters(files_in(file), {box, points, utm_zone_named(rasters.projection)}, rasters.stacking);
     rasters.open.push_back({name, opened.raster});
-    if (opened.outside > 0 || opened.without > 0) warnings.push_back(warning_of(name, file, opened, points.size()));
+    if (opened.outside > 0 || opened.without > 0)
+      warnings.push_back(warning_of(name, words_of_files(file), opened, points.size()));
   }
   return warnings;
 }
