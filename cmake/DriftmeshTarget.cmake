@@ -32,17 +32,21 @@ function(driftmesh_compile_together TARGET)
   endif()
 endfunction()
 
-# driftmesh_library(NAME SOURCES a.cpp ... DEPENDS other boxes LIBS outside libraries)
+# driftmesh_library(NAME [COLD] SOURCES a.cpp ... DEPENDS other boxes LIBS outside libraries)
 # One box, which is the folder that this is called in. It includes headers of each box that DEPENDS names, and of no other;
 # LIBS names the outside libraries (see OutsideLibraries.cmake) whose headers it includes or gets from another box's header.
+# COLD is for boxes in which no run spends time worth saving: they are compiled with fewer optimizations, in three quarters of the time.
 # tests/structure/check_includes.py holds the sources to these declarations.
 function(driftmesh_library NAME)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "COLD" "" "SOURCES;DEPENDS;LIBS" ${ARGN})
   if(ARG_SOURCES)
     add_library(dm_${NAME} STATIC ${ARG_SOURCES})
     if(DRIFTMESH_PYTHON)  # the module is a shared library, whose functions call each other directly all the same
       set_target_properties(dm_${NAME} PROPERTIES POSITION_INDEPENDENT_CODE ON)
       target_compile_options(dm_${NAME} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
+    endif()
+    if(ARG_COLD)
+      target_compile_options(dm_${NAME} PRIVATE $<$<CONFIG:Release>:-O1>)
     endif()
     driftmesh_compile_together(dm_${NAME})
     set(scope PUBLIC)
