@@ -50,8 +50,8 @@ run_preset() {
   rm -f "$report"
   if build "$preset"; then
     say "Testing $preset"
-    # One more than there are cores: some tests wait for what happens by the clock.
-    ctest --preset "$preset" "$@" -j "$((jobs + 1))" --timeout 300 --no-tests=error --output-junit "$report" || true
+    # Twice as many as there are cores: half of the time tests wait, for ranks to start or for what happens by the clock.
+    ctest --preset "$preset" "$@" -j "$((2 * jobs))" --timeout 300 --no-tests=error --output-junit "$report" || true
   fi
   if [[ ! -s $report ]]; then
     one "preset $preset" false

@@ -49,7 +49,7 @@ class Ceiling(program.Cli):
         return code == 0
 
     def test_graded_sizes_in_one_piece(self):
-        for limit in (60, 150):
+        for limit in (50, 90):
             for output in ([], ["-o", "a.vtu"], ["-o", "a.ele", "--keep-incomplete"], ["-o", "a.msh"],
                            ["--plot", "a.png", "--keep-incomplete"]):
                 self.assertFalse(self.hold(limit, *GRADED, *output))
@@ -88,9 +88,9 @@ class Ceiling(program.Cli):
                       "--map-by-area", "--drag", "1,0.02", ranks=2)
 
     def test_a_fast_rank_takes_no_more_than_it_has_memory_for(self):
-        """Five million triangles in all, of which it would take all but a tenth if it could."""
+        """Two million triangles in all, of which it would take all but a tenth if it could."""
         for policy in ("stealing", "greedy", "diffusion"):
-            self.assertTrue(self.hold(200, "-n", "64", "--triangles", "5M", "--balance", policy, "--drag", "1,0.2",
+            self.assertTrue(self.hold(80, "-n", "64", "--triangles", "2M", "--balance", policy, "--drag", "1,0.2",
                                       ranks=2))
 
     def test_what_only_fits_asleep_sleeps(self):
