@@ -5,7 +5,8 @@
 #include <numeric>
 #include <utility>
 
-#include "balancer/deliberation.hpp"
+#include "balancer/snapshot/deliberation.hpp"
+#include "balancer/snapshot/situation.hpp"
 
 namespace driftmesh::balancer {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "balancer/conduct.hpp"
-#include "balancer/messages.hpp"
+#include "balancer/snapshot/messages.hpp"
 
 namespace driftmesh::balancer {
 

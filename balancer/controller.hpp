@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "balancer/admissions.hpp"
-#include "balancer/messages.hpp"
-#include "balancer/move_cost.hpp"
+#include "balancer/cost/move_cost.hpp"
 #include "balancer/planning_conduct.hpp"
 #include "balancer/request_conduct.hpp"
+#include "balancer/snapshot/messages.hpp"
+#include "balancer/snapshot/situation.hpp"
+#include "balancer/trigger/controller_options.hpp"
 #include "driftmesh/load_snapshot.hpp"
 
 namespace driftmesh::balancer {

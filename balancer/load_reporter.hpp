@@ -5,8 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "balancer/conduct.hpp"
-#include "balancer/report_rule.hpp"
+#include "balancer/snapshot/situation.hpp"
+#include "balancer/trigger/controller_options.hpp"
+#include "balancer/trigger/report_rule.hpp"
 
 namespace driftmesh::balancer {
 

@@ -5,7 +5,8 @@
 #include <utility>
 
 #include "balancer/admissions.hpp"
-#include "balancer/partners.hpp"
+#include "balancer/snapshot/partners.hpp"
+#include "balancer/trigger/outlook.hpp"
 
 namespace driftmesh::balancer {
 namespace {
@@ -129,7 +130,7 @@ void PlanningConduct::plan(const Situation& situation, Loads& own, Decision& dec
   if (moves.empty()) return;
   advise(moves, snapshot, own, decision);
   knowledge_->expect(moves, snapshot, plans_, now);
-  has_just_advised_ = true;
+  advice_ = Advice::kJustSent;
   for (const Move& move : moves) moved_[move.subdomain] = now;
 }
 
@@ -143,7 +144,7 @@ std::vector<Move> PlanningConduct::plan_with_partners(const LoadSnapshot& snapsh
 
 // A plan that took long has just been sent, and is not to be forgotten before it can have been carried out.
 void PlanningConduct::took(double seconds) {
-  if (std::exchange(has_just_advised_, false)) knowledge_->put_off(plans_, seconds);
+  if (std::exchange(advice_, Advice::kSettled) == Advice::kJustSent) knowledge_->put_off(plans_, seconds);
   if (!choice_.took(seconds)) pace_.took(seconds);
 }
 

@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "balancer/conduct.hpp"
-#include "balancer/deliberation.hpp"
-#include "balancer/knowledge.hpp"
 #include "balancer/load_reporter.hpp"
-#include "balancer/plan_choice.hpp"
-#include "balancer/planning_pace.hpp"
+#include "balancer/planner/plan_choice.hpp"
+#include "balancer/snapshot/deliberation.hpp"
+#include "balancer/snapshot/knowledge.hpp"
+#include "balancer/snapshot/situation.hpp"
+#include "balancer/trigger/controller_options.hpp"
+#include "balancer/trigger/planning_pace.hpp"
 #include "driftmesh/policy.hpp"
 
 namespace driftmesh::balancer {
@@ -37,11 +39,24 @@ class PlanningConduct {
 
  private:
   using Loads = std::vector<ReportedLoad>;
-  /// Whether a rank that plans has something new to plan on.
+  /// What a rank that plans does next:
+  ///
+  ///     state        event                                             next state
+  ///     kUpToDate    a report comes or is sent                         kNews
+  ///     kNews        it is not yet time to plan (PlanningPace)         kNews
+  ///     kNews        an even load gains too little, or no moves do     kUpToDate
+  ///     kNews        it is too early for moves, for all or for some    kNews
+  ///     kNews        moves are advised                                 kUpToDate
   enum class State {
-    kUpToDate,  ///< it has planned on all that it knows
-    kNews,      ///< something has changed since, or it will be time for what was too early
+    kUpToDate,  ///< waits: it has planned on all that it knows
+    kNews,      ///< plans when the pace allows
   };
+  /// What came of the last think(), and so what its duration means:
+  ///
+  ///     state        event                                             next state
+  ///     kSettled     think() advises moves                             kJustSent
+  ///     kJustSent    took(): the plan is given that much longer        kSettled
+  enum class Advice { kSettled, kJustSent };
 
   [[nodiscard]] bool plans() const { return knowledge_.has_value(); }
   void follow_advice(const Situation& situation, Loads& own, Decision& decision);
@@ -69,7 +84,7 @@ class PlanningConduct {
   PlanningPace pace_;
   PlanChoice choice_;
   std::uint32_t plans_ = 0;
-  bool has_just_advised_ = false;        // at the last think()
+  Advice advice_ = Advice::kSettled;
   std::map<SubdomainId, double> moved_;  // when its last move was planned: it is left alone for a while
 };
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "balancer/admissions.hpp"
-#include "balancer/deliberation.hpp"
+#include "balancer/snapshot/deliberation.hpp"
 
 namespace driftmesh::balancer {
 namespace {

@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "balancer/conduct.hpp"
-#include "balancer/rank_board.hpp"
-#include "balancer/rank_news.hpp"
-#include "balancer/report_rule.hpp"
+#include "balancer/snapshot/rank_board.hpp"
+#include "balancer/snapshot/rank_news.hpp"
+#include "balancer/snapshot/situation.hpp"
+#include "balancer/trigger/controller_options.hpp"
+#include "balancer/trigger/report_rule.hpp"
 #include "driftmesh/policy.hpp"
 
 namespace driftmesh::balancer {

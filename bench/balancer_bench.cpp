@@ -2,7 +2,7 @@
 // speeds. Counts the planned moves, and those worth making.
 #include <benchmark/benchmark.h>
 
-#include "balancer/move_cost.hpp"
+#include "balancer/cost/move_cost.hpp"
 #include "balancer/policies/policy_factory.hpp"
 #include "support/load_snapshots.hpp"
 

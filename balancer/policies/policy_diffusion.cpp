@@ -4,7 +4,7 @@
 #include <set>
 #include <utility>
 
-#include "balancer/partners.hpp"
+#include "balancer/snapshot/partners.hpp"
 #include "driftmesh/policy.hpp"
 #include "driftmesh/policy_parameters.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "balancer/policies/policy_library.hpp"
-#include "balancer/policy_list.hpp"
+#include "balancer/policy_interface/policy_list.hpp"
 #include "balancer/stealing/policy_stealing.hpp"
 #include "base/nearest_name.hpp"
 #include "driftmesh/error.hpp"

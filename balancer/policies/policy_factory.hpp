@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "balancer/policy_list.hpp"
+#include "balancer/policy_interface/policy_list.hpp"
 #include "driftmesh/policy.hpp"
 #include "driftmesh/policy_parameters.hpp"
 

@@ -1,6 +1,6 @@
 #include <memory>
 
-#include "balancer/surplus.hpp"
+#include "balancer/planner/surplus.hpp"
 #include "driftmesh/policy.hpp"
 #include "driftmesh/policy_parameters.hpp"
 

@@ -2,10 +2,10 @@
 #include <memory>
 #include <utility>
 
-#include "balancer/effort.hpp"
-#include "balancer/remap_parts.hpp"
-#include "balancer/surplus.hpp"
-#include "balancer/within_memory.hpp"
+#include "balancer/planner/remap_parts.hpp"
+#include "balancer/planner/surplus.hpp"
+#include "balancer/planner/within_memory.hpp"
+#include "balancer/snapshot/effort.hpp"
 #include "balancer/zoltan/zoltan_partition.hpp"
 #include "base/letter_case.hpp"
 #include "driftmesh/policy.hpp"

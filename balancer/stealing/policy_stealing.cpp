@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "balancer/effort.hpp"
+#include "balancer/snapshot/effort.hpp"
 
 namespace driftmesh::balancer {
 namespace {

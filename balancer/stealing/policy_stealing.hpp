@@ -2,8 +2,7 @@
 
 #include <memory>
 
-#include "driftmesh/policy.hpp"
-#include "driftmesh/policy_parameters.hpp"
+#include "balancer/policy_interface/policy_list.hpp"
 
 namespace driftmesh::balancer {
 

@@ -11,7 +11,7 @@
 #include <numeric>
 #include <utility>
 
-#include "balancer/effort.hpp"
+#include "balancer/snapshot/effort.hpp"
 #include "base/letter_case.hpp"
 #include "base/narrow.hpp"
 #include "driftmesh/error.hpp"

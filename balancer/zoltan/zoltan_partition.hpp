@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "balancer/effort.hpp"
+#include "balancer/snapshot/effort.hpp"
 #include "driftmesh/load_snapshot.hpp"
 
 /// The only part of the project that uses Zoltan.

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "balancer/deliberation.hpp"
+#include "balancer/snapshot/deliberation.hpp"
 #include "driftmesh/ids.hpp"
 #include "protocol/speed_schedule.hpp"
 #include "runtime/rank_outcome.hpp"

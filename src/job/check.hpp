@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "balancer/policy_list.hpp"
+#include "balancer/policy_interface/policy_list.hpp"
 #include "cluster/cluster_spec.hpp"
 #include "job/key.hpp"
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "balancer/policy_list.hpp"
+#include "balancer/policy_interface/policy_list.hpp"
 #include "decompose/decomposition.hpp"
 #include "driftmesh/pslg.hpp"
 #include "driftmesh/repair.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "balancer/policy_list.hpp"
+#include "balancer/policy_interface/policy_list.hpp"
 #include "decompose/decompose.hpp"
 #include "io/mesh_file.hpp"
 #include "job/key_words.hpp"

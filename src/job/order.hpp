@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "balancer/policy_list.hpp"
+#include "balancer/policy_interface/policy_list.hpp"
 #include "driftmesh/pslg.hpp"
 #include "job/domain.hpp"
 #include "job/limits.hpp"

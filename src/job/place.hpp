@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "balancer/policy_list.hpp"
+#include "balancer/policy_interface/policy_list.hpp"
 #include "base/key_text.hpp"
 #include "base/staged_files.hpp"
 #include "cluster/cluster_run.hpp"

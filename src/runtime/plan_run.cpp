@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "balancer/experience.hpp"
+#include "balancer/snapshot/experience.hpp"
 #include "decompose/presplit.hpp"
 #include "decompose/work.hpp"
 #include "driftmesh/error.hpp"

@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "balancer/codec.hpp"
-#include "balancer/effort.hpp"
+#include "balancer/snapshot/codec.hpp"
+#include "balancer/snapshot/effort.hpp"
 #include "driftmesh/error.hpp"
 #include "protocol/codec.hpp"
 #include "protocol/packed_size.hpp"

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "balancer/controller.hpp"
-#include "balancer/deliberation.hpp"
-#include "balancer/experience.hpp"
-#include "balancer/speed_estimate.hpp"
+#include "balancer/snapshot/deliberation.hpp"
+#include "balancer/snapshot/experience.hpp"
+#include "balancer/snapshot/speed_estimate.hpp"
 #include "migration/work.hpp"
 #include "protocol/rank_protocol.hpp"
 #include "protocol/rank_step.hpp"

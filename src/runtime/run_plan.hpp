@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "balancer/conduct.hpp"
-#include "balancer/effort.hpp"
-#include "balancer/policy_list.hpp"
+#include "balancer/policy_interface/policy_list.hpp"
+#include "balancer/snapshot/effort.hpp"
+#include "balancer/trigger/controller_options.hpp"
 #include "base/scratch_file.hpp"
 #include "decompose/decomposition.hpp"
 #include "decompose/presplit.hpp"
@@ -23,7 +23,7 @@ namespace driftmesh {
 
 /// Which policy moves subdomains between ranks during a run, and when.
 struct Balancing {
-  std::string policy = "none";  ///< see balancer/policy_list.hpp
+  std::string policy = "none";  ///< see balancer/policy_interface/policy_list.hpp
   balancer::Parameters::Values parameters;
   balancer::ControllerOptions options;
 };

@@ -6,15 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "balancer/effort.hpp"
-#include "balancer/knowledge.hpp"
-#include "balancer/mend_plan.hpp"
-#include "balancer/move_cost.hpp"
+#include "balancer/cost/move_cost.hpp"
+#include "balancer/planner/mend_plan.hpp"
+#include "balancer/planner/remap_parts.hpp"
+#include "balancer/planner/surplus.hpp"
 #include "balancer/policies/policy_factory.hpp"
-#include "balancer/rank_board.hpp"
-#include "balancer/rank_news.hpp"
-#include "balancer/remap_parts.hpp"
-#include "balancer/surplus.hpp"
+#include "balancer/snapshot/effort.hpp"
+#include "balancer/snapshot/knowledge.hpp"
+#include "balancer/snapshot/rank_board.hpp"
+#include "balancer/snapshot/rank_news.hpp"
 #include "balancer/zoltan/zoltan_partition.hpp"
 #include "base/letter_case.hpp"
 #include "study/measure_costs.hpp"

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "balancer/codec.hpp"
+#include "balancer/snapshot/codec.hpp"
 #include "protocol/protocol_error.hpp"
 
 using namespace driftmesh;

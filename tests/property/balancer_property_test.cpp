@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <functional>
 
-#include "balancer/move_cost.hpp"
+#include "balancer/cost/move_cost.hpp"
+#include "balancer/planner/ranks_by_finish.hpp"
 #include "balancer/policies/policy_factory.hpp"
-#include "balancer/ranks_by_finish.hpp"
 #include "property/cases.hpp"
 #include "support/load_snapshots.hpp"
 #include "support/planned_moves.hpp"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "balancer/mend_plan.hpp"
-#include "balancer/within_memory.hpp"
+#include "balancer/planner/mend_plan.hpp"
+#include "balancer/planner/within_memory.hpp"
 #include "property/cases.hpp"
 #include "support/load_snapshots.hpp"
 #include "support/planned_moves.hpp"

@@ -6,8 +6,8 @@
 #include <array>
 #include <tuple>
 
-#include "balancer/codec.hpp"
-#include "balancer/deliberation.hpp"
+#include "balancer/snapshot/codec.hpp"
+#include "balancer/snapshot/deliberation.hpp"
 #include "property/cases.hpp"
 #include "protocol/codec.hpp"
 #include "protocol/transport_layer.hpp"

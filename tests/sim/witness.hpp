@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "balancer/codec.hpp"
+#include "balancer/snapshot/codec.hpp"
 #include "protocol/codec.hpp"
 #include "protocol/rank_protocol.hpp"
 #include "protocol/transport_layer.hpp"

@@ -17,7 +17,7 @@ DEFAULTS = "include/driftmesh/defaults.hpp"
 FOLDERS = ["include", "src", "balancer", "migration", "protocol", "python"]
 
 # What replays assume of a recorded run, and the latency of a move, which is more than that of a message.
-OWN = {"src/cluster/replay/replay.hpp", "balancer/move_cost.hpp"}
+OWN = {"src/cluster/replay/replay.hpp", "balancer/cost/move_cost.hpp"}
 
 # Sentences that state what a default is or stands for, and where it is written: in a file of this folder. Tables of keys in pages are
 # compared with the program.

@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "balancer/codec.hpp"
+#include "balancer/snapshot/codec.hpp"
 #include "protocol/protocol_error.hpp"
 #include "support/id_literals.hpp"
 

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <functional>
 
-#include "balancer/deliberation.hpp"
-#include "balancer/move_cost.hpp"
+#include "balancer/cost/move_cost.hpp"
+#include "balancer/snapshot/deliberation.hpp"
+#include "balancer/trigger/outlook.hpp"
 #include "protocol/packed_size.hpp"
 #include "support/id_literals.hpp"
 #include "support/load_snapshots.hpp"

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "balancer/experience.hpp"
-#include "balancer/move_cost.hpp"
+#include "balancer/cost/move_cost.hpp"
+#include "balancer/snapshot/experience.hpp"
+#include "balancer/trigger/outlook.hpp"
 #include "property/cases.hpp"
 #include "support/id_literals.hpp"
 #include "support/load_snapshots.hpp"

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "balancer/knowledge.hpp"
-#include "balancer/report_rule.hpp"
+#include "balancer/snapshot/knowledge.hpp"
+#include "balancer/trigger/report_rule.hpp"
 #include "controller_fixture.hpp"
 
 using namespace driftmesh;

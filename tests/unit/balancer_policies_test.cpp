@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "balancer/partners.hpp"
 #include "balancer/policies/policy_factory.hpp"
+#include "balancer/snapshot/partners.hpp"
 #include "driftmesh/error.hpp"
 #include "support/error_text.hpp"
 #include "support/id_literals.hpp"

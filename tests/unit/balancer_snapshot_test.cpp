@@ -1,9 +1,9 @@
 #include <doctest/doctest.h>
 
-#include "balancer/move_cost.hpp"
-#include "balancer/remap_parts.hpp"
-#include "balancer/speed_estimate.hpp"
-#include "balancer/surplus.hpp"
+#include "balancer/cost/move_cost.hpp"
+#include "balancer/planner/remap_parts.hpp"
+#include "balancer/planner/surplus.hpp"
+#include "balancer/snapshot/speed_estimate.hpp"
 #include "protocol/packed_size.hpp"
 #include "support/id_literals.hpp"
 #include "support/load_snapshots.hpp"

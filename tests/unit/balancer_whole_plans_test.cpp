@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "balancer/effort.hpp"
+#include "balancer/snapshot/effort.hpp"
 #include "controller_fixture.hpp"
 
 using namespace driftmesh;

@@ -4,8 +4,8 @@
 #include <map>
 #include <numeric>
 
-#include "balancer/effort.hpp"
 #include "balancer/policies/policy_factory.hpp"
+#include "balancer/snapshot/effort.hpp"
 #include "cluster/simulated/simulate.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/generate.hpp"

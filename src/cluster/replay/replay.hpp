@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "balancer/conduct.hpp"
+#include "balancer/trigger/controller_options.hpp"
 #include "cluster/cluster_spec.hpp"
 #include "cluster/replay/counted_work.hpp"
 #include "driftmesh/load_snapshot.hpp"
