@@ -122,6 +122,15 @@ class BrokenProject(unittest.TestCase):
         self.include("balancer/policies/policy_greedy.cpp", "protocol/mpi/mpi_transport.hpp")
         self.expect("balancer/policies/policy_greedy.cpp:1: includes protocol/mpi/mpi_transport.hpp (transport_mpi)")
 
+    def test_controller_in_a_policy(self):
+        self.include("balancer/policies/policy_greedy.cpp", "balancer/controller.hpp")
+        self.declare("policies", "DEPENDS", "balancer")
+        self.expect("policies: stands on balancer, from which it is kept apart")
+
+    def test_planner_in_the_trigger(self):
+        self.include("balancer/trigger/outlook.cpp", "balancer/planner/surplus.hpp")
+        self.expect("balancer/trigger/outlook.cpp:1: includes balancer/planner/surplus.hpp (balancer_planner)")
+
     def test_source_of_another_folder(self):
         self.declare("mesh", "SOURCES", "../../protocol/codec.cpp")
         self.expect("src/mesh: mesh has ../../protocol/codec.cpp, which lies in another folder")
