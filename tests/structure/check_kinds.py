@@ -17,9 +17,12 @@ from check_stages import without_comments
 FOLDERS = ["src/mesh", "src/decompose", "src/mapping", "src/runtime", "src/cluster", "src/distributed", "migration"]
 
 KINDS = {"src/mesh/bounds.hpp", "src/mesh/size_bound.hpp", "src/mesh/size_bound.cpp"}
-HANDS_ON = {"src/runtime/plan_bytes.cpp": "region_max_area"}  # to other ranks
+HANDS_ON = {
+    "src/runtime/plan_bytes.cpp": "region_max_area",  # to other ranks
+    "src/mesh/area_for_count.cpp": "plain.area",  # chooses it
+}
 
-QUESTIONS = "edge_length|falls_below|least_near|least_between|visit_marks"
+QUESTIONS = "edge_length|falls_below|least_between|visit_marks"
 
 
 def members_of(struct, text):
