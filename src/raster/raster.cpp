@@ -103,9 +103,10 @@ Extent GridRaster::exact_over(const std::array<double, 4>& steps) const {
 
 /// Within four points of the grid, slopes in one direction are linear in the other.
 Raster::Slopes GridRaster::slopes_over(const Box& box) const {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
+  constexpr double kSteepest = std::numeric_limits<double>::infinity();
   const std::array<double, 4> steps{column_at(box.low.x), row_at(box.low.y), column_at(box.high.x), row_at(box.high.y)};
-  if (!(steps[2] - steps[0] <= kManySteps && steps[3] - steps[1] <= kManySteps)) return {{-kFar, kFar}, {-kFar, kFar}};
+  if (!(steps[2] - steps[0] <= kManySteps && steps[3] - steps[1] <= kManySteps))
+    return {{-kSteepest, kSteepest}, {-kSteepest, kSteepest}};
   const auto [i0, i1] = points_around(steps[0], steps[2], frame().columns);
   const auto [j0, j1] = points_around(steps[1], steps[3], frame().rows);
   Extent rises{0, 0}, climbs{0, 0};  // outside of the grid, values do not change
@@ -115,7 +116,7 @@ Raster::Slopes GridRaster::slopes_over(const Box& box) const {
   const bool inside = i1 > i0 && j1 > j0 &&
                       within(box.low.x, box.high.x, frame().first.x, frame().dx, frame().columns) &&
                       within(box.low.y, box.high.y, frame().first.y, frame().dy, frame().rows);
-  if (inside) rises = climbs = {kFar, -kFar};
+  if (inside) rises = climbs = {kSteepest, -kSteepest};
   const auto extend = [](Extent& e, double by) { e = {std::min(e.low, by), std::max(e.high, by)}; };
   for (std::int64_t j = j0; j <= j1; ++j)
     for (std::int64_t i = i0; i <= i1; ++i) {

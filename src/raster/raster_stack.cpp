@@ -83,7 +83,8 @@ RasterStack::Mixed RasterStack::mixed_over(const Box& box, bool with_slopes) con
   Mixed mixed{seen.back().layer->values->over(box), slopes_of(*seen.back().layer->values)};
   double largest = magnitude(mixed.values);
   for (std::size_t k = seen.size() - 1; k-- > 0;) {
-    const auto& [layer, share] = seen[k];
+    const auto& layer = seen[k].layer;
+    const Extent share = seen[k].share;
     const Extent upper = layer->values->over(box), lower = mixed.values;
     largest = std::max(largest, magnitude(upper));
     mixed.values = blended(share, upper, lower);

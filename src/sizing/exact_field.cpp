@@ -24,7 +24,7 @@ const PlaneFunction& ExactField::function_at(const Point& p) const {
   if (!domain_.contains(p) || !(width > 0 && height > 0)) return *function_;
   const int i = std::min(static_cast<int>((p.x - low.x) / width), kCells - 1);
   const int j = std::min(static_cast<int>((p.y - low.y) / height), kCells - 1);
-  Cell& cell = cells_[static_cast<std::size_t>(j * kCells + i)];
+  Cell& cell = cells_[static_cast<std::size_t>(j) * kCells + static_cast<std::size_t>(i)];
   std::call_once(cell.is_made, [&] {
     // A bit wider, for points that rounding puts into the next cell.
     const double margin = (width + height) / 1024;

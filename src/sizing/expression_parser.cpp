@@ -325,9 +325,9 @@ class Parser {
     depth_ -= operation.operands - 1;
     steps_.push_back({.operation = &operation});
   }
-  void emit(ExpressionStep leaf) {
+  void emit(const ExpressionStep& leaf) {
     if (++depth_ > static_cast<int>(kDeepestExpression)) fail_nesting();
-    steps_.push_back(std::move(leaf));
+    steps_.push_back(leaf);
   }
   void emit_function(std::shared_ptr<const PlaneFunction> function) {
     const auto found = std::ranges::find(functions_, function);

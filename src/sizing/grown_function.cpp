@@ -100,8 +100,8 @@ double GrownFunction::most_from(const Start& start, const Point& p) const {
 
 std::shared_ptr<const PlaneFunction> GrownFunction::within(const Box& box) const {
   auto own_within = own_->within(box);
-  const std::shared_ptr<GrownFunction> found(
-      new GrownFunction(*this, own_within != nullptr ? std::move(own_within) : own_));
+  if (own_within == nullptr) own_within = own_;
+  const std::shared_ptr<GrownFunction> found(new GrownFunction(*this, std::move(own_within)));
   const Point center = box.center();
   Least least{most_from(start_, center), start_};
   for (const Square& square : squares_) descend(center, square, least);

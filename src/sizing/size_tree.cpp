@@ -54,7 +54,7 @@ struct SizeTree::Node {
   [[nodiscard]] static std::uintptr_t leaf(Kind kind, int level) {
     return static_cast<std::uintptr_t>(level) << 3U | static_cast<std::uintptr_t>(kind) << 1U | 1U;
   }
-  [[nodiscard]] static Quarters* quarters(std::uintptr_t state) { return reinterpret_cast<Quarters*>(state); }
+  [[nodiscard]] static Quarters* quarters(std::uintptr_t state) { return std::bit_cast<Quarters*>(state); }
 
   [[nodiscard]] double at(double u, double v) const {
     const double low = corners[0] + u * (static_cast<double>(corners[1]) - corners[0]);
@@ -290,14 +290,14 @@ double SizeTree::edge_length(const Point& p) const {
     return length > 0 ? length : field_->edge_length(p);
   };
   if (!find_index(p, i, j)) return by_itself();
-  const auto [node, place] = leaf_at(i, j, deepest_);
-  if (Node::kind(node->state.load(std::memory_order_relaxed)) == kUnknown) return by_itself();
-  const auto part = [&](std::uint64_t index) {
-    const int shift = kDigits - place.level;
+  const Found leaf = leaf_at(i, j, deepest_);
+  if (Node::kind(leaf.node->state.load(std::memory_order_relaxed)) == kUnknown) return by_itself();
+  const int shift = kDigits - leaf.place.level;
+  const auto part = [shift](std::uint64_t index) {
     return static_cast<double>(index & ((std::uint64_t{1} << shift) - 1)) * power_of_two(-shift);
   };
-  if (std::isinf(node->least)) return node->least;
-  return width_ * node->at(part(i), part(j));
+  if (std::isinf(leaf.node->least)) return leaf.node->least;
+  return width_ * leaf.node->at(part(i), part(j));
 }
 
 // ---- In a triangle ----

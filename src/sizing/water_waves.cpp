@@ -65,9 +65,9 @@ Interval wavelength_over(const Interval& depth, const Interval& period) {
 Interval wavelength_slope(const Interval& depth, const Interval& period, const Interval& of_depth,
                           const Interval& of_period) {
   if (!(depth.low >= 0 && period.low > 0)) return kAll;
-  constexpr double kMargin = 1e-13;  // for rounding, to which sinh is sensitive
-  const double low = (1 - kMargin) * wave_number(relative_depth(depth.low, period.high));
-  const double high = (1 + kMargin) * wave_number(relative_depth(depth.high, period.low));
+  constexpr double kForRounding = 1e-13;  // sinh is sensitive to it
+  const double low = (1 - kForRounding) * wave_number(relative_depth(depth.low, period.high));
+  const double high = (1 + kForRounding) * wave_number(relative_depth(depth.high, period.low));
   const auto by_depth = [](double x) { return kTurn / (x + std::sinh(2 * x) / 2); };
   const Interval in_depth = outward(by_depth(high), by_depth(low));
   const Interval speed = divide(wavelength_over(depth, period), period);
