@@ -102,10 +102,12 @@ SizeTree::SizeTree(std::shared_ptr<const SizeField> field, std::shared_ptr<const
       directory_(std::size_t{1} << (2 * kDirectoryLevel)) {
   const double side = std::max({domain.high.x - domain.low.x, domain.high.y - domain.low.y, 0.0});
   // Squares of a grid through the origin, of which two by two cover the domain.
-  const double most =
-      std::max({std::fabs(domain.low.x), std::fabs(domain.low.y), std::fabs(domain.high.x), std::fabs(domain.high.y)});
+  const bool has_points = domain.low.x <= domain.high.x && domain.low.y <= domain.high.y;
+  const double most = has_points ? std::max({std::fabs(domain.low.x), std::fabs(domain.low.y), std::fabs(domain.high.x),
+                                             std::fabs(domain.high.y)})
+                                 : 0;
   const double half = power_above(std::max({side, std::ldexp(most, -40), 1e-300}));
-  low_ = {std::floor(domain.low.x / half) * half, std::floor(domain.low.y / half) * half};
+  if (has_points) low_ = {std::floor(domain.low.x / half) * half, std::floor(domain.low.y / half) * half};
   width_ = 2 * half;
   if (most > 0)
     deepest_ = std::clamp(std::ilogb(width_ / most) + 48, 1, kDeepest);  // squares of some units in the last place
