@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <memory>
 #include <numbers>
-#include <random>
 #include <string>
 
 #include "driftmesh/repair.hpp"
 #include "job/domain.hpp"
 #include "property/cases.hpp"
 #include "support/made_mesh.hpp"
+#include "support/random.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
 
@@ -21,12 +21,6 @@ using namespace driftmesh;
 using namespace driftmesh::testing;
 
 namespace {
-
-using Random = std::mt19937_64;
-
-double uniform(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 /// A rectangle of 2 x 1 in two halves, which are regions, with a round hole in one of them.
 Pslg halves() {

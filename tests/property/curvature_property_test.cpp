@@ -5,13 +5,14 @@
 #include <cstdint>
 #include <memory>
 #include <numbers>
-#include <random>
 #include <vector>
 
 #include "property/cases.hpp"
 #include "sizing/expression.hpp"
 #include "sizing/outline_curvature.hpp"
+#include "support/check_slopes.hpp"
 #include "support/infinity.hpp"
+#include "support/random.hpp"
 
 // Curvatures of random outlines against circles through three points in a row, found by a look at each segment.
 
@@ -20,11 +21,6 @@ using namespace driftmesh::testing;
 
 namespace {
 
-using Random = std::mt19937_64;
-
-double uniform(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 double gap(const Point& p, const Point& q) {
   return std::hypot(p.x - q.x, p.y - q.y);
 }
@@ -70,10 +66,6 @@ std::vector<Nearest> look_at_each(const Ring& ring, const Point& p) {
     all.push_back({gap(p, {a.x + t * ex, a.y + t * ey}), (1 - t) * through(before, a, b) + t * through(a, b, behind)});
   }
   return all;
-}
-
-Point somewhere_in(Random& random, const Box& box) {
-  return {uniform(random, box.low.x, box.high.x), uniform(random, box.low.y, box.high.y)};
 }
 
 constexpr Box kAround{{-1.2, -1.2}, {1.2, 1.2}};
@@ -131,13 +123,7 @@ TEST_CASE("within smaller and smaller boxes curvatures stay the same, and bounds
           const double at_p = function->at(p);
           REQUIRE(at_p == whole->at(p));
           REQUIRE(found.value.holds(at_p));
-          const auto slope_in = [&](const Interval& slopes, const Point& to, double by) {
-            const double rise = function->at(to) - at_p, a = slopes.low * by, b = slopes.high * by;
-            REQUIRE((rise >= std::min(a, b) - 1e-11 && rise <= std::max(a, b) + 1e-11));
-          };
-          slope_in(found.in_x, {q.x, p.y}, q.x - p.x);
-          slope_in(found.in_y, {p.x, q.y}, q.y - p.y);
-          REQUIRE(std::fabs(function->at(q) - at_p) <= found.steepest() * gap(p, q) + 1e-11);
+          check_slopes(*function, found, p, q, 1e-11);
         }
         const double half = (box.high.x - box.low.x) / 4;
         const Point m = somewhere_in(random, Box::around(target, target, half / 2));

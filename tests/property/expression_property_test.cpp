@@ -7,7 +7,6 @@
 #include <functional>
 #include <map>
 #include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -17,6 +16,7 @@
 #include "sizing/water_waves.hpp"
 #include "support/error_text.hpp"
 #include "support/infinity.hpp"
+#include "support/random.hpp"
 
 // Random formulas as trees, evaluated by recursion here and, printed as text, by the parser and its machine: values are
 // the same bit for bit, and in the intervals of all boxes around their points.
@@ -26,12 +26,7 @@ using namespace driftmesh::testing;
 
 namespace {
 
-using Random = std::mt19937_64;
 using Values = std::vector<double>;
-
-double uniform(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 /// A leaf has a number, or else no operands. "?" chooses, and "neg" and "pos" are signs.
 struct Tree {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "geometry/predicates.hpp"
 #include "property/cases.hpp"
 #include "raster/level_outline.hpp"
+#include "support/random.hpp"
 
 // Outlines of random rasters against the values: what is inside, what is connected, and whether rings are simple.
 
@@ -18,12 +18,6 @@ using namespace driftmesh;
 using namespace driftmesh::testing;
 
 namespace {
-
-using Random = std::mt19937_64;
-
-double uniform(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 struct Drawn {
   RasterFrame frame;

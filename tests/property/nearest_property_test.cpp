@@ -6,11 +6,12 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <random>
 #include <vector>
 
 #include "property/cases.hpp"
 #include "sizing/segment_distance.hpp"
+#include "support/check_slopes.hpp"
+#include "support/random.hpp"
 
 // The distance to the nearest of some segments, against a look at each of them, wherever the segments and the points
 // are, and what is known of it within smaller and smaller boxes.
@@ -20,12 +21,7 @@ using namespace driftmesh::testing;
 
 namespace {
 
-using Random = std::mt19937_64;
 using Segments = std::vector<SegmentDistance::Ends>;
-
-double uniform(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 Point around(Random& random, const Point& p, double reach) {
   return {p.x + uniform(random, -reach, reach), p.y + uniform(random, -reach, reach)};
@@ -163,10 +159,6 @@ Box quarter(const Box& box, std::uint64_t k) {
           {k % 2 == 0 ? m.x : box.high.x, k < 2 ? m.y : box.high.y}};
 }
 
-Point somewhere_in(Random& random, const Box& box) {
-  return {uniform(random, box.low.x, box.high.x), uniform(random, box.low.y, box.high.y)};
-}
-
 }  // namespace
 
 TEST_CASE("the nearest of random segments is that of a look at each of them") {
@@ -208,17 +200,10 @@ TEST_CASE("within smaller and smaller boxes distances stay the same, and bounds 
         const Variation found = function->over(box);
         for (int n = 0; n < 6; ++n) {
           const Point p = somewhere_in(random, box), q = somewhere_in(random, box);
-          const double at_p = function->at(p), there = std::hypot(q.x - p.x, q.y - p.y);
+          const double at_p = function->at(p);
           CHECK(std::fabs(at_p - whole.at(p)) <= rounding);
           CHECK((at_p >= found.value.low - rounding && at_p <= found.value.high + rounding));
-          const auto slope_in = [&](const Interval& slopes, const Point& to, double by) {
-            const double rise = function->at(to) - at_p, low = by > 0 ? slopes.low : slopes.high,
-                         high = by > 0 ? slopes.high : slopes.low;
-            CHECK((rise >= low * by - rounding && rise <= high * by + rounding));
-          };
-          slope_in(found.in_x, {q.x, p.y}, q.x - p.x);
-          slope_in(found.in_y, {p.x, q.y}, q.y - p.y);
-          CHECK(std::fabs(function->at(q) - at_p) <= found.steepest() * there + rounding);
+          check_slopes(*function, found, p, q, rounding);
         }
         straight += found.in_x.high - found.in_x.low < 0.01 && found.in_y.high - found.in_y.low < 0.01 ? 1 : 0;
         const Point m = box.center();

@@ -11,13 +11,14 @@
 
 #include "geometry/predicates.hpp"
 #include "property/cases.hpp"
+#include "support/random.hpp"
 
 using namespace driftmesh;
+using namespace driftmesh::testing;
 
 namespace {
 
 using Integer = boost::multiprecision::cpp_int;
-using Random = std::mt19937_64;
 using Quad = std::array<Point, 4>;
 
 // --- The oracle: determinants in integers, every coordinate scaled by one power of two. ---
@@ -85,9 +86,6 @@ int naive_incircle(const Quad& q) {
 
 // --- Generators. ---
 
-double uniform(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 int integer(Random& random, int low, int high) {
   return std::uniform_int_distribution<int>(low, high)(random);
 }

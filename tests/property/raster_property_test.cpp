@@ -4,7 +4,6 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -18,6 +17,7 @@
 #include "sizing/make_size_field.hpp"
 #include "sizing/named_raster.hpp"
 #include "support/made_mesh.hpp"
+#include "support/random.hpp"
 #include "temporary_folder.hpp"
 
 // Rasters of random values against what is found in their arrays one by one, and meshes whose sizes they ask for.
@@ -26,12 +26,6 @@ using namespace driftmesh;
 using namespace driftmesh::testing;
 
 namespace {
-
-using Random = std::mt19937_64;
-
-double uniform(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 /// A raster with its values as one array, row by row from below.
 struct Drawn {

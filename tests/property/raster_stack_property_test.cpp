@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <random>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "gis/transverse_mercator.hpp"
 #include "property/cases.hpp"
 #include "raster/open_raster.hpp"
+#include "support/random.hpp"
 #include "temporary_folder.hpp"
 
 // Stacks of random rasters in files against what is found in their values one by one, and bounds against samples.
@@ -21,12 +21,6 @@ using namespace driftmesh;
 using namespace driftmesh::testing;
 
 namespace {
-
-using Random = std::mt19937_64;
-
-double uniform(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 /// A raster in a file, with its values row by row from below.
 struct Tile {

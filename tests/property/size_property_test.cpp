@@ -8,7 +8,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -19,6 +18,7 @@
 #include "sizing/expression_field.hpp"
 #include "sizing/make_size_field.hpp"
 #include "support/made_mesh.hpp"
+#include "support/random.hpp"
 #include "temporary_folder.hpp"
 #include "unit/sizing_mesh_fixture.hpp"
 
@@ -30,12 +30,7 @@ using namespace driftmesh::testing;
 
 namespace {
 
-using Random = std::mt19937_64;
 using Corner = std::array<Point, 3>;
-
-double uniform(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 std::string text_of(double value) {
   char text[40];

@@ -5,13 +5,14 @@
 #include <cstdint>
 #include <cstdio>
 #include <numbers>
-#include <random>
 #include <string>
 
 #include "property/cases.hpp"
 #include "sizing/expression.hpp"
 #include "sizing/water_waves.hpp"
+#include "support/check_slopes.hpp"
 #include "support/infinity.hpp"
+#include "support/random.hpp"
 
 // Wavelengths against bisection of the dispersion relation, and bounds of values and slopes against differences.
 
@@ -20,11 +21,6 @@ using namespace driftmesh::testing;
 
 namespace {
 
-using Random = std::mt19937_64;
-
-double uniform(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 double scaled(Random& random, double low, double high) {
   return std::exp(uniform(random, std::log(low), std::log(high)));
 }
@@ -104,13 +100,7 @@ TEST_CASE("values and slopes of waves are within what is known of them over boxe
       const Point p{between(low.x), between(low.y)}, q{between(low.x), between(low.y)};
       const double here = expression.at(p);
       REQUIRE(found.value.holds(here));
-      const auto check = [&](const Point& to, const Interval& slopes, double by) {
-        const double rise = expression.at(to) - here, a = slopes.low * by, b = slopes.high * by;
-        REQUIRE((by == 0 || (rise >= std::min(a, b) - rounding && rise <= std::max(a, b) + rounding)));
-      };
-      check({q.x, p.y}, found.in_x, q.x - p.x);
-      check({p.x, q.y}, found.in_y, q.y - p.y);
-      check(q, found.in_directions, std::hypot(q.x - p.x, q.y - p.y));
+      check_slopes(expression, found, p, q, rounding);
     }
   }
 }

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <memory>
 #include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -13,8 +12,10 @@
 #include "property/cases.hpp"
 #include "sizing/expression.hpp"
 #include "sizing/local_width.hpp"
+#include "support/check_slopes.hpp"
 #include "support/error_text.hpp"
 #include "support/infinity.hpp"
+#include "support/random.hpp"
 
 // Widths of random outlines against their definition: balls that grow from all over the outline until they touch it
 // again, by bisection and a look at each segment. And what is known of widths over boxes against values at points.
@@ -24,12 +25,7 @@ using namespace driftmesh::testing;
 
 namespace {
 
-using Random = std::mt19937_64;
 using Segment = SegmentDistance::Ends;
-
-double uniform(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 OutlineSegments ring_of(const std::vector<Point>& points) {
   OutlineSegments ring;
@@ -158,10 +154,6 @@ class Oracle {
   std::vector<Ball> balls_;
 };
 
-Point somewhere_in(Random& random, const Box& box) {
-  return {uniform(random, box.low.x, box.high.x), uniform(random, box.low.y, box.high.y)};
-}
-
 Box box_of(const OutlineSegments& outline) {
   Box box;
   for (const Segment& s : outline) box.extend(Box::around(s.a, s.b));
@@ -280,13 +272,7 @@ TEST_CASE("within smaller and smaller boxes widths stay the same, and bounds hol
           const double at_p = function->at(p);
           REQUIRE(std::fabs(at_p - whole->at(p)) <= 1e-13);
           REQUIRE(found.value.holds(at_p));
-          const auto slope_in = [&](const Interval& slopes, const Point& to, double by) {
-            const double rise = function->at(to) - at_p, a = slopes.low * by, b = slopes.high * by;
-            REQUIRE((rise >= std::min(a, b) - 1e-12 && rise <= std::max(a, b) + 1e-12));
-          };
-          slope_in(found.in_x, {q.x, p.y}, q.x - p.x);
-          slope_in(found.in_y, {p.x, q.y}, q.y - p.y);
-          REQUIRE(std::fabs(function->at(q) - at_p) <= found.steepest() * gap(p, q) + 1e-12);
+          check_slopes(*function, found, p, q, 1e-12);
         }
         close += found.value.high < 1.2 * found.value.low ? 1 : 0;
         const double half = (box.high.x - box.low.x) / 4;

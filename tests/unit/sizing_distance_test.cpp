@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <random>
 #include <set>
 #include <string>
 #include <vector>
@@ -15,17 +14,12 @@
 #include "sizing/make_size_field.hpp"
 #include "sizing/segment_distance.hpp"
 #include "support/error_text.hpp"
+#include "support/random.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::testing;
 
 namespace {
-
-using Random = std::mt19937_64;
-
-double uniform(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 /// Short and long segments with markers 1 to 5, some of them points, some equal.
 Pslg random_segments(Random& random, int count, double scale) {
