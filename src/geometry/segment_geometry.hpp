@@ -13,10 +13,15 @@ namespace driftmesh {
   return std::clamp(t, 0.0, 1.0);
 }
 
-/// Rounded; if an end is nearest, or the ends are one point, that to the end, whatever the segment.
-[[nodiscard]] inline double squared_distance_to_segment(const Point& p, const Point& a, const Point& b) {
+/// Rounded; if an end is nearest, or the ends are one point, that is the end, whatever the segment.
+[[nodiscard]] inline Point nearest_point_on_segment(const Point& p, const Point& a, const Point& b) {
   const double t = nearest_on_segment(p, a, b);
-  const Point nearest = t < 1 ? Point{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)} : b;
+  return t < 1 ? Point{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)} : b;
+}
+
+/// To that point.
+[[nodiscard]] inline double squared_distance_to_segment(const Point& p, const Point& a, const Point& b) {
+  const Point nearest = nearest_point_on_segment(p, a, b);
   const double dx = p.x - nearest.x, dy = p.y - nearest.y;
   return dx * dx + dy * dy;
 }

@@ -11,7 +11,7 @@ namespace driftmesh {
 namespace {
 
 constexpr double kWithoutValue = -std::numeric_limits<double>::infinity();
-constexpr std::int64_t kKept = 64;  // of so many points along a side of the rectangle one is kept
+constexpr std::int64_t kKept = 64;  // every so many points along a side of the rectangle, one is kept
 
 double twice_area(const PolygonRing& ring) {
   double sum = 0;

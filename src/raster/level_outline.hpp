@@ -40,7 +40,7 @@ class LevelOutline {
   [[nodiscard]] std::vector<LevelPart> parts();
 
  private:
-  using PointId = std::uint64_t;  ///< of a point of the raster, or a point between two of them
+  using PointId = std::uint64_t;  ///< names a point of the raster, or one between two of them
   struct Vertex {
     PointId id;
     Point at;
@@ -68,7 +68,7 @@ class LevelOutline {
   RasterFrame frame_;
   double level_;
   double sign_;
-  std::int64_t row_;                   // of the raster, the next one
+  std::int64_t row_;                   // the next one that is read
   std::vector<double> upper_, lower_;  // how far values are beyond the level; none: minus infinity
   // Parts of the squares above and of those at hand, two each: of a square with two separate parts the one with the
   // lower corner, then the one with the upper corner. -1: none.

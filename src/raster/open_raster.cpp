@@ -147,7 +147,7 @@ OpenedRaster opened(std::shared_ptr<const Raster> raster, const std::vector<Cove
 struct NearTile {
   RasterTile tile;
   double spacing;               // the greater one, in the units of the domain
-  std::optional<Point> center;  // of the domain in its coordinates; absent: they are the same
+  std::optional<Point> center;  // the domain's, in its coordinates; absent: they are the same
 };
 
 Box box_of(const RasterFrame& f) {

@@ -56,8 +56,8 @@ class GridRaster final : public Raster {
 
   TiledGrid grid_;
   ValuePyramid pyramid_;
-  Extent largest_;   // of all values
-  double rounding_;  // of values between points of the grid, and of where these are
+  Extent largest_;   // least and greatest of all values
+  double rounding_;  // covers what is computed between points of the grid, and where these are
   mutable std::once_flag has_slope_;
   mutable std::shared_ptr<const Raster> slope_;
 };

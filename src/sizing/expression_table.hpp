@@ -41,7 +41,7 @@ struct Function {
   std::string_view name, arguments, meaning;
   Operation operation;
   Arguments takes = Arguments::kFixed;
-  std::span<const double> defaults = {};  ///< of the last arguments, if they are not given
+  std::span<const double> defaults = {};  ///< what the last arguments are if they are not given
 };
 
 struct NamedConstant {

@@ -135,8 +135,8 @@ Variation GrownFunction::over(const Box& box) const {
     const double here = most_from(start_, corner);
     most = most == kUnlimited ? here : std::max(most, here);
   }
-  const double radius = distance(box.low, box.high) / 2;
-  DirectionRange range{1, -1, 1, -1};
+  const double radius = half_diagonal(box);
+  DirectionRange range;
   for (const Square& square : squares_) {
     const Box part = part_in_domain(square);
     least = std::min(least, square.least + gradation_ * gap(part, box));
@@ -145,11 +145,8 @@ Variation GrownFunction::over(const Box& box) const {
                                          : Point{std::clamp(center.x, part.low.x, part.high.x),
                                                  std::clamp(center.y, part.low.y, part.high.y)};
     const double away = distance(center, from);
-    const DirectionRange own =
-        directions_around({(center.x - from.x) / away, (center.y - from.y) / away},
-                          square.is_divided ? radius + distance(part.low, part.high) / 2 : radius, away);
-    range = {std::min(range.low_x, own.low_x), std::max(range.high_x, own.high_x), std::min(range.low_y, own.low_y),
-             std::max(range.high_y, own.high_y)};
+    range.extend(directions_around({(center.x - from.x) / away, (center.y - from.y) / away},
+                                   square.is_divided ? radius + half_diagonal(part) : radius, away));
   }
   if (least == kUnlimited || (!value.undefined && value.high <= least)) return found;
   const Interval limit{-gradation_, gradation_};

@@ -1,7 +1,6 @@
 #include "sizing/local_width.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -19,25 +18,15 @@ constexpr std::size_t kFewestPieces = 4;  // fewer are not worth their memory
 constexpr std::size_t kFewPieces = 48;
 
 Point nearest_on(const AxisPiece& piece, const Point& p) {
-  if (piece.a == piece.b) return piece.a;
-  const double t = nearest_on_segment(p, piece.a, piece.b);
-  return {piece.a.x + t * (piece.b.x - piece.a.x), piece.a.y + t * (piece.b.y - piece.a.y)};
+  return nearest_point_on_segment(p, piece.a, piece.b);
 }
 
 double squared_to(const Point& p, const AxisPiece& piece) {
   return squared_distance(p, nearest_on(piece, p));
 }
 
-double half_diagonal_of(const Box& box) {
-  return std::sqrt(squared_distance(box.low, box.high)) / 2;
-}
-
 bool may_be_nearest(const NearestInSquare& square, const AxisPiece& piece) {
-  const Point& center = square.center();
-  return square.needs(0, nearest_on(piece, center), [&](const Point& d) {
-    const auto along = [&](const Point& p) { return d.x * (center.x - p.x) + d.y * (center.y - p.y); };
-    return std::min(along(piece.a), along(piece.b));
-  });
+  return square.needs(nearest_on(piece, square.center()), piece.a, piece.b);
 }
 
 Interval twice_sum(const Interval& a, const Interval& b) {
@@ -56,10 +45,8 @@ struct LocalWidth::Axis {
       least = std::min(least, piece.radius);
     }
     tree = BoxTree(boxes);
-    extent = 2 * half_diagonal_of(all);
-    margin =
-        0x1p-43 *
-        (extent + std::max({std::fabs(all.low.x), std::fabs(all.low.y), std::fabs(all.high.x), std::fabs(all.high.y)}));
+    extent = 2 * half_diagonal(all);
+    margin = margin_in(all);
   }
   std::vector<AxisPiece> pieces;
   BoxTree tree;
@@ -97,7 +84,7 @@ double LocalWidth::at(const Point& p) const {
 
 Variation LocalWidth::over(const Box& box) const {
   constexpr Interval kSteepest{-4, 4};
-  const double radius = half_diagonal_of(box);
+  const double radius = half_diagonal(box);
   if (!std::isfinite(radius)) return {{2 * axis_->least, intervals::kAll.high}, kSteepest, kSteepest, kSteepest};
   const Variation outline = to_outline_->over(box);
   const Point center = box.center();
@@ -106,16 +93,13 @@ Variation LocalWidth::over(const Box& box) const {
   DirectionRange range{-1, 1, -1, 1};
   if (!few_.empty()) {
     least = std::numeric_limits<double>::infinity();
-    range = {1, -1, 1, -1};
+    range = {};
     for (const AxisPiece& piece : few_) {
       const Point from = nearest_on(piece, center);
       const double away = std::sqrt(squared_distance(center, from));
       if (away > middle + 2 * radius + rounding) continue;
       least = std::min(least, piece.radius);
-      const DirectionRange own =
-          directions_around({(center.x - from.x) / away, (center.y - from.y) / away}, radius, away);
-      range = {std::min(range.low_x, own.low_x), std::max(range.high_x, own.high_x), std::min(range.low_y, own.low_y),
-               std::max(range.high_y, own.high_y)};
+      range.extend(directions_around({(center.x - from.x) / away, (center.y - from.y) / away}, radius, away));
     }
   }
   const Interval axis{std::max(middle - radius - rounding, 0.0), middle + radius + rounding};
@@ -131,10 +115,8 @@ std::shared_ptr<const PlaneFunction> LocalWidth::within(const Box& box) const {
   bool is_narrowed = false;
   if (few_.empty() || few_.size() > kFewestPieces) {
     const AxisPiece& rival = nearest(box.center());
-    std::array<double, 4> at_corners;
-    const std::array<Point, 4> corners = NearestInSquare::corners_of(box);
-    for (std::size_t k = 0; k < 4; ++k) at_corners[k] = std::sqrt(squared_to(corners[k], rival)) + axis_->margin;
-    const NearestInSquare square(box, 1, at_corners);
+    const auto square = NearestInSquare::against(
+        box, [&](const Point& p) { return std::sqrt(squared_to(p, rival)); }, axis_->margin);
     const auto visit = [&](const AxisPiece& piece) {
       if (found.size() <= kFewPieces && may_be_nearest(square, piece)) found.push_back(piece);
     };

@@ -30,7 +30,7 @@ constexpr double kOpposite = -0.5;      // cosine of the least angle between dir
 constexpr double kTolerance = 0x1p-10;  // by which another segment may be nearer, relative to the distance
 constexpr double kOutside = 0.25;       // how far beyond a square its candidates are known, relative to its width
 constexpr std::size_t kMostCandidates = 32;
-constexpr std::size_t kSectors = 32;  // of directions, where there are more
+constexpr std::size_t kSectors = 32;  // one candidate for each direction is kept, where there are more
 constexpr int kDeepest = 48;
 
 Point operator-(const Point& p, const Point& q) {
@@ -64,8 +64,7 @@ struct Offset {
 };
 
 Point nearest_on(const Site& s, const Point& p) {
-  const double t = nearest_on_segment(p, s.a, s.b);
-  return t < 1 ? along(s.a, t, s.b - s.a) : s.b;
+  return nearest_point_on_segment(p, s.a, s.b);
 }
 
 Offset offset_from(const Site& s, const Point& p) {
@@ -131,9 +130,7 @@ class Finder {
     for (const auto& [a, b] : outline) boxes.push_back(Box::around(a, b));
     for (const Box& box : boxes) box_.extend(box);
     tree_ = BoxTree(boxes);
-    const Point size = box_.high - box_.low;
-    margin_ = 0x1p-43 * (std::hypot(size.x, size.y) + std::max({std::fabs(box_.low.x), std::fabs(box_.low.y),
-                                                                std::fabs(box_.high.x), std::fabs(box_.high.y)}));
+    margin_ = margin_in(box_);
   }
 
   std::vector<AxisPiece> find() {
@@ -182,16 +179,12 @@ class Finder {
   [[nodiscard]] Candidates candidates(const Box& square, std::int32_t first, const Candidates& known,
                                       std::size_t most) const {
     const Box box = Box::around(square.low, square.high, kOutside * (square.high.x - square.low.x));
-    std::array<double, 4> rival;
-    const std::array<Point, 4> corners = NearestInSquare::corners_of(box);
-    for (std::size_t k = 0; k < 4; ++k) rival[k] = offset_from(sites_[first], corners[k]).distance + margin_;
-    const NearestInSquare near(box, 1, rival);
-    const Point center = near.center();
+    const auto near = NearestInSquare::against(
+        box, [&](const Point& p) { return offset_from(sites_[first], p).distance; }, margin_);
     Candidates found;
     const auto visit = [&](std::int32_t i) {
       const Site& s = sites_[i];
-      const auto support = [&](const Point& d) { return std::min(dot(d, center - s.a), dot(d, center - s.b)); };
-      if (found.size() <= most && near.needs(0, nearest_on(s, center), support)) found.push_back(i);
+      if (found.size() <= most && near.needs(nearest_on(s, near.center()), s.a, s.b)) found.push_back(i);
     };
     if (known.empty())
       tree_.search([&](const Box& around) { return found.size() <= most && near.needs(0, around); }, visit);

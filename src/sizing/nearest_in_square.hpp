@@ -6,8 +6,21 @@
 #include <cstddef>
 
 #include "geometry/box.hpp"
+#include "geometry/triangle_geometry.hpp"
 
 namespace driftmesh {
+
+/// How far the points of a box are from its center.
+[[nodiscard]] inline double half_diagonal(const Box& box) {
+  return std::sqrt(squared_distance(box.low, box.high)) / 2;
+}
+
+/// More than what rounding does to distances between points of a box: ten times.
+[[nodiscard]] inline double margin_in(const Box& box) {
+  const double farthest =
+      std::max({std::fabs(box.low.x), std::fabs(box.low.y), std::fabs(box.high.x), std::fabs(box.high.y)});
+  return 0x1p-43 * (farthest + 2 * half_diagonal(box));
+}
 
 /// Finds out what may be the least of some functions somewhere in a square. Each is a weight and a slope times the
 /// distance to a convex set. What exceeds a rival, another convex function, at all points of the square is not needed.
@@ -24,6 +37,15 @@ class NearestInSquare {
         half_{(square.high.x - square.low.x) / 2, (square.high.y - square.low.y) / 2},
         slope_(slope),
         rival_(rival) {}
+
+  /// Against one of the functions with slope 1, from its values, and a margin for their rounding.
+  template <class Function>
+  [[nodiscard]] static NearestInSquare against(const Box& square, const Function& rival, double margin) {
+    std::array<double, 4> at_corners;
+    const std::array<Point, 4> corners = corners_of(square);
+    for (std::size_t k = 0; k < 4; ++k) at_corners[k] = rival(corners[k]) + margin;
+    return {square, 1, at_corners};
+  }
 
   [[nodiscard]] const Point& center() const { return center_; }
 
@@ -51,6 +73,14 @@ class NearestInSquare {
                  [&](const Point& d) { return d.x * (center_.x - nearest.x) + d.y * (center_.y - nearest.y); });
   }
 
+  /// The same for the segment ab, without a weight.
+  [[nodiscard]] bool needs(const Point& nearest, const Point& a, const Point& b) const {
+    return needs(0, nearest, [&](const Point& d) {
+      const auto along = [&](const Point& p) { return d.x * (center_.x - p.x) + d.y * (center_.y - p.y); };
+      return std::min(along(a), along(b));
+    });
+  }
+
  private:
   Point center_, half_;
   double slope_;
@@ -61,10 +91,15 @@ class NearestInSquare {
 /// the set than that and in this direction: with the center, the vector from the nearest point of the set moves no
 /// farther than the center does (it is nonexpansive).
 struct DirectionRange {
-  double low_x, high_x, low_y, high_y;
+  double low_x = 1, high_x = -1, low_y = 1, high_y = -1;  // none
+
+  void extend(const DirectionRange& by) {
+    *this = {std::min(low_x, by.low_x), std::max(high_x, by.high_x), std::min(low_y, by.low_y),
+             std::max(high_y, by.high_y)};
+  }
 };
 [[nodiscard]] inline DirectionRange directions_around(const Point& direction, double radius, double distance) {
-  constexpr double kRoot = 1.41421356237309515;  // of a chord to the sine of its angle, at most, up to a right angle
+  constexpr double kRoot = 1.41421356237309515;  // at most: a chord over the sine of its angle, up to a right one
   if (!(radius < distance)) return {-1, 1, -1, 1};
   const double change = kRoot * radius / distance + 0x1p-40;
   return {std::max(direction.x - change, -1.0), std::min(direction.x + change, 1.0),

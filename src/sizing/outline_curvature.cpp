@@ -55,14 +55,11 @@ OutlineCurvature::OutlineCurvature(OutlineSegments outline) {
     boxes.push_back(Box::around(a, b));
     box.extend(boxes.back());
   }
-  const double extent = std::sqrt(squared_distance(box.low, box.high));
   All all;
   all.tree = BoxTree(boxes);
-  all.least = 1e-6 / extent;
+  all.least = 1e-6 / (2 * half_diagonal(box));
   all.most = all.least;
-  all.margin =
-      0x1p-43 *
-      (extent + std::max({std::fabs(box.low.x), std::fabs(box.low.y), std::fabs(box.high.x), std::fabs(box.high.y)}));
+  all.margin = margin_in(box);
   const std::vector<std::array<double, 2>> curvatures = curvatures_of(outline);
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const double at_a = std::max(curvatures[i][0], all.least), at_b = std::max(curvatures[i][1], all.least);
@@ -91,21 +88,13 @@ double OutlineCurvature::at(const Point& p) const {
 /// Those that can be nearest in a box, up to one more than `most`.
 std::vector<std::int32_t> OutlineCurvature::candidates(const Box& box, std::size_t most) const {
   const std::int32_t rival = nearest(box.center());
-  const std::array<Point, 4> corners = NearestInSquare::corners_of(box);
-  std::array<double, 4> at_corners;
-  for (std::size_t k = 0; k < 4; ++k) at_corners[k] = std::sqrt(squared_to(corners[k], rival)) + all_->margin;
-  const NearestInSquare square(box, 1, at_corners);
-  const Point& center = square.center();
+  const auto square = NearestInSquare::against(
+      box, [&](const Point& p) { return std::sqrt(squared_to(p, rival)); }, all_->margin);
   std::vector<std::int32_t> found;
   const auto visit = [&](std::int32_t item) {
     const Arc& arc = all_->arcs[item];
-    const double t = nearest_on_segment(center, arc.a, arc.b);
-    const Point foot{arc.a.x + t * (arc.b.x - arc.a.x), arc.a.y + t * (arc.b.y - arc.a.y)};
-    const auto along = [&](const Point& d) {
-      const auto to = [&](const Point& p) { return d.x * (center.x - p.x) + d.y * (center.y - p.y); };
-      return std::min(to(arc.a), to(arc.b));
-    };
-    if (found.size() <= most && square.needs(0, foot, along)) found.push_back(item);
+    const Point foot = nearest_point_on_segment(square.center(), arc.a, arc.b);
+    if (found.size() <= most && square.needs(foot, arc.a, arc.b)) found.push_back(item);
   };
   if (few_.empty())
     all_->tree.search([&](const Box& around) { return found.size() <= most && square.needs(0, around); }, visit);

@@ -66,7 +66,7 @@ class SampledField final : public SizeField {
   const SizeField& field_;
   Grid grid_;
   Knows knows_;
-  mutable std::mutex lock_;  // of the map
+  mutable std::mutex lock_;  // guards the map
   mutable std::unordered_map<std::array<std::int64_t, 2>, std::unique_ptr<Tile>, TileHash> tiles_;
 };
 

@@ -1,7 +1,6 @@
 #include "sizing/segment_distance.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -19,8 +18,6 @@ using Line = SegmentDistance::Line;
 
 constexpr std::size_t kFewest = 4;  // fewer are not worth their memory
 constexpr std::size_t kFew = 48;
-/// Relative to coordinates. What rounding does to distances is a tenth of it.
-constexpr double kMargin = 0x1p-43;
 
 std::vector<Ends> segments_with(const Pslg& pslg, std::span<const std::int32_t> markers) {
   std::vector<Ends> segments;
@@ -54,16 +51,8 @@ double squared_to(const Point& p, const Line& s) {
 }
 
 bool may_be_nearest(const NearestInSquare& square, const Line& s) {
-  const Point& center = square.center();
   const Point end{s.from.x + s.length * s.direction.x, s.from.y + s.length * s.direction.y};
-  return square.needs(0, nearest_on(s, center), [&](const Point& d) {
-    const auto along = [&](const Point& p) { return d.x * (center.x - p.x) + d.y * (center.y - p.y); };
-    return std::min(along(s.from), along(end));
-  });
-}
-
-double half_diagonal(const Box& box) {
-  return std::sqrt(squared_distance(box.low, box.high)) / 2;
+  return square.needs(nearest_on(s, square.center()), s.from, end);
 }
 
 /// Of the distance to a segment, at the points of a box.
@@ -93,10 +82,8 @@ struct SegmentDistance::All {
   explicit All(std::vector<Ends> given) : segments(std::move(given)), tree(boxes_of(segments)) {
     for (const Ends& s : segments) lines.push_back(line_of(s));
     for (const Ends& s : segments) box.extend(Box::around(s.a, s.b));
-    extent = std::sqrt(squared_distance(box.low, box.high));
-    margin =
-        kMargin *
-        (std::max({std::fabs(box.low.x), std::fabs(box.low.y), std::fabs(box.high.x), std::fabs(box.high.y)}) + extent);
+    extent = 2 * half_diagonal(box);
+    margin = margin_in(box);
   }
   std::vector<Ends> segments;
   std::vector<Line> lines;
@@ -149,19 +136,15 @@ Variation SegmentDistance::over(const Box& box) const {
     const double far = middle + 2 * radius + rounding;
     for (const Line& s : few_) {
       if (&s == rival.line || squared_to(box.center(), s) > far * far || !may_be_nearest(square, s)) continue;
-      const DirectionRange own = slopes_of(s, box, radius);
-      slopes = {std::min(slopes.low_x, own.low_x), std::max(slopes.high_x, own.high_x),
-                std::min(slopes.low_y, own.low_y), std::max(slopes.high_y, own.high_y)};
+      slopes.extend(slopes_of(s, box, radius));
     }
   }
   return {value, {slopes.low_x, slopes.high_x}, {slopes.low_y, slopes.high_y}, kAny};
 }
 
 NearestInSquare SegmentDistance::against(const Line& rival, const Box& box) const {
-  std::array<double, 4> at_corners;
-  const std::array<Point, 4> corners = NearestInSquare::corners_of(box);
-  for (std::size_t k = 0; k < 4; ++k) at_corners[k] = std::sqrt(squared_to(corners[k], rival)) + all_->margin;
-  return {box, 1, at_corners};
+  return NearestInSquare::against(
+      box, [&](const Point& p) { return std::sqrt(squared_to(p, rival)); }, all_->margin);
 }
 
 /// The rival is the segment nearest to the center.

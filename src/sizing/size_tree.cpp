@@ -8,9 +8,9 @@
 namespace driftmesh {
 namespace {
 
-constexpr int kDigits = 53;  // of places in the finest grid
+constexpr int kDigits = 53;  // bits of a place in the finest grid
 constexpr int kDirectoryLevel = 9;
-constexpr double kRoughTolerance = 0.16;  // of squares up to twice as wide as the lengths in them
+constexpr double kRoughTolerance = 0.16;  // in squares up to twice as wide as the lengths in them
 constexpr double kSlack = 1 + 0x1p-20;    // for rounding
 
 /// Toward 0.
@@ -46,7 +46,7 @@ struct SizeTree::Node {
   std::atomic<std::uintptr_t> state{0};
   std::array<float, 4> corners{};  // lengths, 0 where there is none: lower left, lower right, upper left, upper right
   float least = 0;                 // no length in the square is less
-  float error = 0;                 // of the bilinear lengths
+  float error = 0;                 // most that the bilinear lengths are off by
 
   [[nodiscard]] static bool is_leaf(std::uintptr_t state) { return (state & 1U) != 0; }
   [[nodiscard]] static Kind kind(std::uintptr_t state) { return static_cast<Kind>(state >> 1U & 3U); }
@@ -80,7 +80,7 @@ struct SizeTree::Shelf {
   static constexpr std::size_t kBlock = 64;
   std::mutex lock;
   std::vector<std::unique_ptr<std::array<Quarters, kBlock>>> blocks;
-  std::size_t used = kBlock;  // of the last block
+  std::size_t used = kBlock;  // in the last block
 
   Quarters& next() {
     if (used == kBlock) {
@@ -151,7 +151,8 @@ inline std::uintptr_t SizeTree::compiled(Node& node, const Place& place, Quarter
   return state != 0 ? state : compile(node, place, around);
 }
 
-/// Of all quarters of a square. Places near each other have the same, and many are between two that share one.
+/// The same for all quarters of a square. Parts of the plane take turns in a pattern: places near each other share a
+/// shelf, and threads that work far apart seldom wait for one.
 SizeTree::Shelf& SizeTree::shelf_of(const Place& place) const {
   constexpr int kLevel = 6;
   const int finer = std::max(place.level - kLevel, 1);

@@ -60,7 +60,7 @@ class SizeTree final : public SizeField {
     double least;  // no length in it is less
     bool is_divided;
     bool is_steep;  // not divided, and not smooth
-    void* node;     // of the tree
+    void* node;     // what the tree keeps of it
     int level;
     std::uint64_t i, j;
   };
@@ -121,7 +121,7 @@ class SizeTree final : public SizeField {
   double width_ = 0, to_index_ = 0;
   int deepest_ = kDeepest;
   double least_ = 0;
-  double steepest_ = 0;            // of the function in the domain
+  double steepest_ = 0;            // slope of the function in the domain
   std::unique_ptr<Quarters> top_;  // has the root alone
   std::unique_ptr<std::array<Shelf, kShelves * kShelves>> shelves_;
   mutable std::vector<std::atomic<Node*>> directory_;  // nodes at kDirectoryLevel, or leaves above
