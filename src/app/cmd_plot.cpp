@@ -48,9 +48,13 @@ struct PlotCommand {
 };
 
 // "1600x900"
-void read_pixels(const std::string& text, PlotOptions& plot) {
+bool is_in_pixels(const std::string& text, int& width, int& height) {
   char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &plot.width, &plot.height, &rest) != 2)
+  return std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) == 2;
+}
+
+void read_pixels(const std::string& text, PlotOptions& plot) {
+  if (!is_in_pixels(text, plot.width, plot.height))
     throw cli::UsageError("is '" + text + "'; write WIDTHxHEIGHT, such as 1600x900");
 }
 
@@ -71,9 +75,7 @@ job::Request request_of(const PlotCommand& command) {
   command.sizes.apply(request);
   request.input.file = command.input;
   const job::Request::Sizing& sizing = request.sizing;
-  int width = 0, height = 0;
-  char rest = 0;
-  if (std::sscanf(sizing.expression.c_str(), "%dx%d%c", &width, &height, &rest) == 2)
+  if (int width = 0, height = 0; is_in_pixels(sizing.expression, width, height))
     throw cli::UsageError("--size is '" + sizing.expression +
                           "', but means lengths of edges; a picture has --pixels WxH");
   if (sizing.expression.empty() && sizing.background.empty())

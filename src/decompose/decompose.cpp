@@ -13,6 +13,7 @@
 #include "decompose/to_decomposition.hpp"
 #include "decompose/work_samples.hpp"
 #include "driftmesh/error.hpp"
+#include "mesh/bound_forecast.hpp"
 #include "mesh/forecast.hpp"
 #include "mesh/size_bound.hpp"
 
@@ -21,8 +22,8 @@ namespace {
 
 /// A decomposition with a larger load than this is made again by grouping smaller pieces.
 constexpr double kFairLoad = 1.45;
-/// The same for many subdomains whose work is sampled: samples scatter, and the balance of a run does not depend on one
-/// of many.
+/// The same for many subdomains whose work is sampled: samples scatter, and a single one matters little to the balance
+/// of a run.
 constexpr double kFairOfMany = 1.7;
 constexpr std::int32_t kMany = 32;
 /// Samples of work.
@@ -64,16 +65,6 @@ void check_options(const DecomposeOptions& o) {
   check_range("the skew", o.skew, 0, kMaxSkew);
 }
 
-double area_of(const Triangulation& mesh) {
-  double twice = 0;
-  for (const Triangle& t : mesh.triangles) {
-    if (!t.alive()) continue;
-    const Point &a = mesh.points[t.vertex[0]], &b = mesh.points[t.vertex[1]], &c = mesh.points[t.vertex[2]];
-    twice += (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-  }
-  return twice / 2;
-}
-
 /// The domain before the first cut.
 struct Domain {
   PlanarMap map;
@@ -102,9 +93,13 @@ struct Attempt {
 };
 constexpr Attempt kAttempts[] = {{1, false}, {1, true}, {4, false}, {8, false}};
 
+bool is_sampled(const Domain& domain) {
+  return !std::ranges::all_of(domain.samples, &WorkSamples::empty);
+}
+
 /// Not what is uneven on purpose, or where work is sampled: it does not follow from the area that a subdomain gains.
 bool may_smooth(const Domain& domain, const DecomposeOptions& options) {
-  return options.skew == 0 && std::ranges::all_of(domain.samples, &WorkSamples::empty);
+  return options.skew == 0 && !is_sampled(domain);
 }
 
 Decomposition cut_domain(Domain domain, const DecomposeOptions& options, const Attempt& attempt) {
@@ -133,8 +128,7 @@ double largest_load(const Decomposition& d) {
 }
 
 Decomposition cut_evenly(const Domain& domain, const DecomposeOptions& options) {
-  const bool is_sampled = !may_smooth(domain, options);
-  const double fair = is_sampled && options.subdomains >= kMany ? kFairOfMany : kFairLoad;
+  const double fair = is_sampled(domain) && options.subdomains >= kMany ? kFairOfMany : kFairLoad;
   Decomposition best;
   double load = kNoBound;
   for (const Attempt& attempt : kAttempts) {

@@ -137,7 +137,7 @@ Section triangle_section() {
        key("sizing.resolution", &R::sizing, &R::Sizing::resolution,
            "Where only values at points tell the size, they are taken on a grid of this many squares along the longer "
            "side of the domain: no feature that fills a square is missed",
-           in(1, 100'000), option("size-resolution", "N"))}};
+           in(1, 100'000), option("size-resolution", "N"), entry_points(kAll | kPlot))}};
 }
 
 Section limit_section() {

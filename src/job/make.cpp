@@ -130,6 +130,13 @@ std::unique_ptr<Refined> obey(Place& place, Order&& order, const SizeField* size
   return timed(watch, "refine", [&] { return place.refine(std::move(order), limits, size, watch); });
 }
 
+TriangulatedDomain triangulated_at(const Asked& asked, PlaceKind kind, std::int32_t ranks, Cut cut, Watch& watch) {
+  check(asked.request, kind, asked.given.policies);
+  TriangulatedDomain made{read_domain(asked.request, asked.given, watch), {}};
+  made.triangulated = triangulate_domain(asked.request, made.domain, ranks, cut, watch);
+  return made;
+}
+
 }  // namespace
 
 Wanted wanted_of(const Request::Output& output) {
@@ -148,20 +155,14 @@ std::unique_ptr<Refined> follow(Place& place, Watch& watch) {
 }
 
 TriangulatedDomain make_triangulated(const Asked& asked, Watch& watch) {
-  check(asked.request, kOnePiece, asked.given.policies);
-  TriangulatedDomain made{read_domain(asked.request, asked.given, watch), {}};
-  made.triangulated = triangulate_domain(asked.request, made.domain, 1, Cut::kNever, watch);
-  return made;
+  return triangulated_at(asked, kOnePiece, 1, Cut::kNever, watch);
 }
 
 CutDomain make_cut(const Asked& asked, std::int32_t ranks, Watch& watch) {
-  check(asked.request, ranks > 1 ? kRanks : kSubdomains, asked.given.policies);
-  CutDomain made{read_domain(asked.request, asked.given, watch), {}};
-  const Triangulated triangulated = triangulate_domain(asked.request, made.domain, ranks, Cut::kAlways, watch);
+  auto [domain, triangulated] = triangulated_at(asked, ranks > 1 ? kRanks : kSubdomains, ranks, Cut::kAlways, watch);
   const Stopwatch cutting;
-  made.decomposition = cut(asked.request, triangulated, ranks);
-  made.seconds = cutting.seconds();
-  return made;
+  Decomposition decomposition = cut(asked.request, triangulated, ranks);
+  return {std::move(domain), std::move(decomposition), cutting.seconds()};
 }
 
 }  // namespace driftmesh::job

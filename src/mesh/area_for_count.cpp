@@ -2,22 +2,10 @@
 
 #include <cmath>
 
-#include "geometry/triangle_geometry.hpp"
 #include "mesh/bound_forecast.hpp"
 #include "mesh/forecast.hpp"
 
 namespace driftmesh {
-namespace {
-
-double area_of(const Triangulation& mesh) {
-  double area = 0;
-  for (const TriangleId t : ids_of(mesh.triangles))
-    if (mesh.triangles[t].alive()) area += signed_area(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
-  return area;
-}
-
-}  // namespace
-
 double area_for_count(const Triangulation& mesh, const QualityBounds& bounds, double count) {
   constexpr double kAgrees = 0.02, kClose = 0.005;
   constexpr int kMostLooks = 12;

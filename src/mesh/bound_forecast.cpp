@@ -58,6 +58,13 @@ double integrate_size(const SizeBounds& sizes, double twice_area_bound, const Co
 
 }  // namespace
 
+double area_of(const Triangulation& mesh) {
+  double area = 0;
+  for (const TriangleId t : ids_of(mesh.triangles))
+    if (mesh.triangles[t].alive()) area += signed_area(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
+  return area;
+}
+
 BoundForecast::BoundForecast(const Triangulation& mesh, const SizeBounds& sizes)
     : mesh_(mesh), areas_(mesh, sizes, kMarginOfRefinement) {
   if (!areas_.by_place()) return;
@@ -100,9 +107,7 @@ double most_in_total(const Triangulation& mesh, const SizeBounds& sizes) {
   constexpr double kPiecesPerTriangle = 2.5;
   const double by_place = sizes.by_place() ? twice_area_of_edge(sizes.least_length()) : kNoBound;
   const double least = std::min(by_place, AreaBounds(mesh, sizes, kMarginOfRefinement).least_constant());
-  double twice = 0;
-  for (const TriangleId t : ids_of(mesh.triangles))
-    if (mesh.triangles[t].alive()) twice += 2 * signed_area(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
+  const double twice = 2 * area_of(mesh);
   return static_cast<double>(mesh.live_triangles()) + kPiecesPerTriangle / kMeanArea * twice / least;
 }
 

@@ -9,6 +9,9 @@ namespace driftmesh {
 /// The number of triangles that refinement makes, relative to area / bound (measured at 20 degrees).
 inline constexpr double kTrianglesPerBound = 1.55;
 
+/// The area of all triangles.
+[[nodiscard]] double area_of(const Triangulation& mesh);
+
 /// How many triangles the bounds on area and size ask for, by themselves: the area over the mean area of triangles.
 class BoundForecast {
  public:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,12 @@ using PlotNames = std::vector<std::pair<std::string, Value>>;
 /// What is to be shown of something that fills `whole`.
 [[nodiscard]] inline Box shown_box(const PlotOptions& options, const Box& whole) {
   return options.box ? Box{options.box->low, options.box->high} : whole;
+}
+
+/// With space around what it holds, so that boundary lines are not cut in half.
+[[nodiscard]] inline Box with_margin(const Box& box) {
+  const double margin = 0.012 * std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+  return {{box.low.x - margin, box.low.y - margin}, {box.high.x + margin, box.high.y + margin}};
 }
 
 /// Whether `path` can name a picture: it ends in .png, .svg or .pdf, or is "-" (PNG to standard output).

@@ -51,6 +51,27 @@ void draw_histogram(Canvas& canvas, const PixelRect& room, const std::vector<std
 
 }  // namespace
 
+ColorBar logarithmic_bar(const std::string& title, double low, double high) {
+  ColorBar bar;
+  bar.title = title;
+  bar.notes = {"log scale"};
+  bar.low = low;
+  bar.high = high;
+  bar.ticks = logarithmic_ticks(std::pow(10, low), std::pow(10, high), 7);
+  for (Tick& tick : bar.ticks) tick.value = std::log10(tick.value);
+  return bar;
+}
+
+std::vector<std::size_t> histogram_of(const std::vector<float>& values, double low, double high) {
+  constexpr std::size_t kBins = 60;
+  std::vector<std::size_t> counts(kBins, 0);
+  for (const float value : values) {
+    const double place = std::clamp((value - low) / (high - low), 0.0, 1.0);
+    ++counts[std::min(static_cast<std::size_t>(place * kBins), kBins - 1)];
+  }
+  return counts;
+}
+
 void draw_color_bar(Canvas& canvas, const PlotFrame& frame, const ColorBar& bar) {
   if (!frame.has_legend()) return;
   const double u = frame.unit();

@@ -19,6 +19,12 @@ struct ColorBar {
   std::vector<std::size_t> histogram;  ///< counts of equal parts from low to high
 };
 
+/// A bar for decimal logarithms from low to high, which its ticks show as the values that they are of.
+[[nodiscard]] ColorBar logarithmic_bar(const std::string& title, double low, double high);
+
+/// How many values are in each of 60 equal parts from low to high; those beyond count in the first and the last.
+[[nodiscard]] std::vector<std::size_t> histogram_of(const std::vector<float>& values, double low, double high);
+
 /// A category and its color.
 struct Swatch {
   Rgb color;

@@ -29,12 +29,6 @@ Box box_of(const Mesh& mesh) {
   return box;
 }
 
-// Space around the mesh, so that boundary lines are not cut in half.
-Box with_margin(const Box& box) {
-  const double margin = 0.012 * std::max(box.high.x - box.low.x, box.high.y - box.low.y);
-  return {{box.low.x - margin, box.low.y - margin}, {box.high.x + margin, box.high.y + margin}};
-}
-
 /// The side of a triangle of mean area.
 double mean_side(const PlotSummary& shown) {
   return std::sqrt(2 * shown.shown_area / std::max<double>(1, static_cast<double>(shown.shown_triangles)));

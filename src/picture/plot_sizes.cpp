@@ -18,29 +18,17 @@ Box box_of(const DomainShape& domain) {
   Box box;
   for (const auto& triangle : domain.triangles)
     for (const Point& p : triangle) box.extend(p);
-  const double margin = 0.012 * std::max(box.high.x - box.low.x, box.high.y - box.low.y);
-  return {{box.low.x - margin, box.low.y - margin}, {box.high.x + margin, box.high.y + margin}};
+  return with_margin(box);
 }
 
-/// Of the lengths in view, all of them.
+/// For all lengths in view.
 ColorBar bar_of(const std::vector<float>& logs) {
-  constexpr std::size_t kBins = 60;
   constexpr double kNarrowest = 0.2;  // decades
-  ColorBar bar;
-  bar.title = "Target edge";
-  bar.notes = {"log scale"};
   const auto [least, most] = std::ranges::minmax_element(logs);
   const double low = logs.empty() ? 0 : *least, high = logs.empty() ? 1 : *most;
   const double missing = std::max(kNarrowest - (high - low), 0.0);
-  bar.low = low - missing / 2;
-  bar.high = high + missing / 2;
-  bar.ticks = logarithmic_ticks(std::pow(10, bar.low), std::pow(10, bar.high), 7);
-  for (Tick& tick : bar.ticks) tick.value = std::log10(tick.value);
-  bar.histogram.assign(kBins, 0);
-  for (const float log : logs) {
-    const double place = std::clamp((log - bar.low) / (bar.high - bar.low), 0.0, 1.0);
-    ++bar.histogram[std::min(static_cast<std::size_t>(place * kBins), kBins - 1)];
-  }
+  ColorBar bar = logarithmic_bar("Target edge", low - missing / 2, high + missing / 2);
+  bar.histogram = histogram_of(logs, bar.low, bar.high);
   return bar;
 }
 

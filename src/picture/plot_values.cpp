@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kBestAngle = 60;
-constexpr std::size_t kBins = 60;
 
 struct Corners {
   Corners(const Mesh& mesh, std::size_t t)
@@ -34,21 +33,16 @@ std::array<double, 2> extreme_angles(const Corners& t) {
           kDegrees * std::atan2(four_areas, square[0] + square[1] - square[2])};
 }
 
-std::vector<std::size_t> histogram(const Mesh& mesh, const Box& shown, const std::vector<float>& values, double low,
-                                   double high) {
-  std::vector<std::size_t> counts(kBins, 0);
-  for (std::size_t t = 0; t < values.size(); ++t) {
-    if (!is_shown(mesh, t, shown)) continue;
-    const double place = std::clamp((values[t] - low) / (high - low), 0.0, 1.0);
-    ++counts[std::min(static_cast<std::size_t>(place * kBins), kBins - 1)];
-  }
-  return counts;
+/// Of the triangles in view.
+std::vector<float> seen_of(const Mesh& mesh, const Box& shown, const std::vector<float>& values) {
+  std::vector<float> seen;
+  for (std::size_t t = 0; t < values.size(); ++t)
+    if (is_shown(mesh, t, shown)) seen.push_back(values[t]);
+  return seen;
 }
 
-void set_bar_range(PlotValues& result, double low, double high) {
-  result.bar.low = low;
-  result.bar.high = high;
-  result.color_of = [low, high](double value) { return viridis((value - low) / (high - low)); };
+std::function<Rgb(double)> colors_between(double low, double high) {
+  return [low, high](double value) { return viridis((value - low) / (high - low)); };
 }
 
 PlotValues angle_values(const Mesh& mesh, const Box& shown) {
@@ -56,20 +50,18 @@ PlotValues angle_values(const Mesh& mesh, const Box& shown) {
   result.of_triangle.reserve(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     result.of_triangle.push_back(static_cast<float>(extreme_angles({mesh, t})[0]));
-  set_bar_range(result, 0, kBestAngle);
+  result.color_of = colors_between(0, kBestAngle);
+  result.bar.high = kBestAngle;
   result.bar.title = "Smallest angle";
   result.bar.notes = {"degrees"};
   result.bar.ticks = linear_ticks(0, kBestAngle, 6);
-  result.bar.histogram = histogram(mesh, shown, result.of_triangle, 0, kBestAngle);
+  result.bar.histogram = histogram_of(seen_of(mesh, shown, result.of_triangle), 0, kBestAngle);
   return result;
 }
 
 // log10 of the smallest and largest area, without the outermost thousandth on both sides: a single sliver must not
 // stretch the scale.
-std::array<double, 2> area_range(const Mesh& mesh, const Box& shown, const std::vector<float>& logs, double narrowest) {
-  std::vector<float> seen;
-  for (std::size_t t = 0; t < logs.size(); ++t)
-    if (is_shown(mesh, t, shown)) seen.push_back(logs[t]);
+std::array<double, 2> area_range(std::vector<float> seen, double narrowest) {
   if (seen.empty()) return {0, 1};
   const auto quantile = [&seen](double share) {
     const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(seen.size() - 1));
@@ -91,13 +83,11 @@ PlotValues area_values(const Mesh& mesh, const Box& shown, bool dense) {
     result.of_triangle.push_back(static_cast<float>(std::log10(std::max(area, 1e-300))));
   }
   // In a fine mesh one wants to see where it is finer, and not how areas vary among neighbors.
-  const auto [low, high] = area_range(mesh, shown, result.of_triangle, dense ? 1 : 0.2);
-  set_bar_range(result, low, high);
-  result.bar.title = "Area";
-  result.bar.notes = {"log scale"};
-  result.bar.ticks = logarithmic_ticks(std::pow(10, low), std::pow(10, high), 7);
-  for (Tick& tick : result.bar.ticks) tick.value = std::log10(tick.value);
-  result.bar.histogram = histogram(mesh, shown, result.of_triangle, low, high);
+  const std::vector<float> seen = seen_of(mesh, shown, result.of_triangle);
+  const auto [low, high] = area_range(seen, dense ? 1 : 0.2);
+  result.color_of = colors_between(low, high);
+  result.bar = logarithmic_bar("Area", low, high);
+  result.bar.histogram = histogram_of(seen, low, high);
   return result;
 }
 
