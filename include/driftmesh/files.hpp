@@ -79,7 +79,7 @@ struct ReadOptions {
   bool allow_outside = false;  ///< a .pvtu may name pieces outside of its own folder, and through links that leave it
 };
 
-/// Reads a mesh back, from any of these formats but MFEM's, from standard input by the same names, or from the pieces
+/// Reads a mesh back, from any of these formats but .pmesh, from standard input by the same names, or from the pieces
 /// that a .pvtu names. A file on disk may be mapped: another program must not shorten it meanwhile. Everything is
 /// checked before it is used: indices are in range and counts fit the file. Triangles stay as the file lists them, so
 /// that a check sees the actual contents; only if the total area is negative are all of them reversed. Errors:

@@ -33,22 +33,23 @@ std::string list_of_extensions(const Wanted& wanted) {
   return one_of(list);
 }
 
-std::string extension_of(const std::string& path) {
-  return names_no_format(path) ? kFormatOfStreams : std::filesystem::path(path).extension().string();
-}
-
-/// Null for another extension, or none.
-const MeshFormat* format_called(const std::string& extension) {
+/// The format whose extension the path ends in, the longer one where two would do (.medit.mesh); null if there is none.
+const MeshFormat* format_named_by(const std::string& path) {
+  const std::string name = std::filesystem::path(path).filename().string();
+  const MeshFormat* found = nullptr;
+  std::size_t length = 0;
   for (const MeshFormat& format : mesh_formats())
-    if (std::ranges::find(format.extensions, extension) != format.extensions.end()) return &format;
-  return nullptr;
+    for (const std::string_view extension : format.extensions)
+      if (name.ends_with(extension) && name.size() > extension.size() && extension.size() > length)
+        found = &format, length = extension.size();
+  return found;
 }
 
 }  // namespace
 
 const MeshFormat& format_of(const std::string& path) {
-  const std::string extension = extension_of(path);
-  const MeshFormat* const format = format_called(extension);
+  const MeshFormat* const format = format_named_by(names_no_format(path) ? path + kFormatOfStreams : path);
+  const std::string extension = std::filesystem::path(path).extension().string();
   if (format == nullptr)
     throw InputError({path, 0}, extension.empty() ? "has no extension" : "has an unknown extension '" + extension + "'",
                      "a mesh file is " + mesh_files_written());
@@ -106,7 +107,7 @@ Mesh read_mesh(const std::string& path, const ReadOptions& options) {
 
 bool is_mesh_file(const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension().string();
-  return extension != ".poly" && extension != ".node" && format_called(extension) != nullptr;
+  return extension != ".poly" && extension != ".node" && format_named_by(path) != nullptr;
 }
 
 bool is_in_pieces(const std::string& path) {

@@ -5,6 +5,7 @@
 #include "base/read_file.hpp"
 #include "io/fort14_format.hpp"
 #include "io/hdf5_format.hpp"
+#include "io/medit_format.hpp"
 #include "io/mfem_format.hpp"
 #include "io/msh_format.hpp"
 #include "io/pvtu_format.hpp"
@@ -51,6 +52,11 @@ void written(const Mesh& mesh, const std::string& path, const WriteOptions&) {
   write_format(mesh, path);
 }
 
+/// Two formats have the ending .mesh; their first line tells which one it is.
+Mesh parse_mfem_or_medit(const std::string& file, std::string_view text) {
+  return text.starts_with("MFEM") ? parse_mfem(file, text) : parse_medit(file, text);
+}
+
 std::vector<MeshFormat> all_formats() {
   return {{.extensions = {".vtu"},
            .remark = "ParaView",
@@ -87,10 +93,19 @@ std::vector<MeshFormat> all_formats() {
            .keeps = kMarkers | kMarkerNames | kBoundaryTypes,
            .write = written<write_su2>,
            .parse = parse_su2},
-          {.extensions = {".mesh"}, .remark = "MFEM", .keeps = kMarkers | kRegions, .write = written<write_mfem>},
+          {.extensions = {".mesh"},
+           .remark = "MFEM",
+           .keeps = kMarkers | kRegions | kNamedParts,
+           .write = written<write_mfem>,
+           .parse = parse_mfem_or_medit},
+          {.extensions = {".medit.mesh"},
+           .remark = "Medit: mmg2d, FreeFEM",
+           .keeps = kPointMarkers | kMarkers | kInnerSegments | kOrderOfSegments | kRegions | kNamedParts,
+           .write = written<write_medit>,
+           .parse = parse_mfem_or_medit},
           {.extensions = {".pmesh"},
            .remark = "MFEM's ParMesh, a file for each rank",
-           .keeps = kMarkers | kRegions,
+           .keeps = kMarkers | kRegions | kNamedParts,
            .files = pieces_of<mfem_part_path>,
            .in_pieces = PieceWriters::kRanks,
            .whole = ".mesh"},

@@ -6,14 +6,11 @@
 #include "driftmesh/id_vector.hpp"
 #include "io/mfem_format.hpp"
 #include "io/msh_groups.hpp"
+#include "io/tag_comments.hpp"
 #include "mesh/mesh_edges.hpp"
 
 namespace driftmesh {
 namespace {
-
-// Geometry types of the format.
-constexpr std::int32_t kMfemSegment = 1;
-constexpr std::int32_t kMfemTriangle = 2;
 
 class MfemText {
  public:
@@ -21,7 +18,9 @@ class MfemText {
 
   void write() {
     const bool is_parallel = !part_.groups.empty();
-    sink_.text(is_parallel ? "MFEM mesh v1.2\n\ndimension\n2\n" : "MFEM mesh v1.0\n\ndimension\n2\n");
+    sink_.text(is_parallel ? "MFEM mesh v1.2\n\n" : "MFEM mesh v1.0\n\n");
+    write_tag_comments(sink_, part_.marker_tags, part_.region_tags, mesh_.names);
+    sink_.text("\ndimension\n2\n");
     write_elements();
     write_boundary();
     write_points();
@@ -95,9 +94,11 @@ std::unique_ptr<FileSink> prepare_mfem(const MfemPart& part, const std::string& 
 
 void write_mfem(const Mesh& mesh, const std::string& path) {
   MfemPart part{.mesh = mesh, .boundary = boundary_edges(mesh), .region_tags = {}, .marker_tags = {}};
-  std::set<double> markers;
+  std::set<double> markers, regions(mesh.regions.begin(), mesh.regions.end());
   for (const Mesh::Edge& edge : mesh.edges) markers.insert(edge.marker);
-  part.region_tags = tags_of_values({mesh.regions.begin(), mesh.regions.end()});
+  for (const auto& [marker, name] : mesh.names.markers) markers.insert(marker);
+  for (const auto& [region, name] : mesh.names.regions) regions.insert(region);
+  part.region_tags = tags_of_values(regions);
   part.marker_tags = tags_of_values(markers);
   prepare_mfem(part, path)->commit();
 }
