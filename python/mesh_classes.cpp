@@ -8,10 +8,14 @@
 
 #include "arrays.hpp"
 #include "classes.hpp"
+#include "distributed/mesh_bytes.hpp"
 #include "driftmesh/files.hpp"
 #include "driftmesh/mesh.hpp"
+#include "driftmesh/mesh_order.hpp"
 #include "driftmesh/options.hpp"
 #include "driftmesh/pslg.hpp"
+#include "driftmesh/version.hpp"
+#include "mesh/mesh_edges.hpp"
 #include "table.hpp"
 
 namespace driftmesh::python {
@@ -186,6 +190,16 @@ Mesh make_mesh(py::handle points, py::handle triangles, py::handle edges, py::ha
   return mesh;
 }
 
+/// Of the same version alone: what is in it follows the members of a mesh.
+Mesh mesh_of_state(const py::tuple& state) {
+  if (const auto version = state[0].cast<std::string>(); version != DRIFTMESH_VERSION)
+    throw py::value_error("this mesh was pickled by driftmesh " + version +
+                          ", and this is " DRIFTMESH_VERSION ": write meshes that are kept to files");
+  const auto text = state[1].cast<std::string>();
+  const auto* begin = reinterpret_cast<const std::byte*>(text.data());
+  return mesh_of({Rank{}, Bytes(begin, begin + text.size())});
+}
+
 std::string counted(std::size_t count, const char* what) {
   return std::to_string(count) + " " + what;
 }
@@ -268,6 +282,30 @@ void add_mesh(py::module_& module) {
       py::arg("path"),
       "Write the format that the extension names: .vtu, .msh, or Triangle's .node, .ele, ... Files appear only when "
       "complete.");
+  mesh.def(py::pickle(
+      [](const Mesh& v) {
+        const Bytes bytes = mesh_to_bytes(v);
+        return py::make_tuple(DRIFTMESH_VERSION, py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+      },
+      &mesh_of_state));
+  mesh.def_property_readonly(
+      "neighbors",
+      [](const Mesh& v) {
+        const auto neighbors = triangle_neighbors(v);
+        return py::array_t<std::int32_t>({static_cast<py::ssize_t>(neighbors.size()), py::ssize_t{3}},
+                                         neighbors.empty() ? nullptr : neighbors[0].data());
+      },
+      "For each triangle those across the edges opposite to its corners, -1 at the boundary, shape (triangles, 3). "
+      "Found "
+      "anew at each call.");
+  mesh.def(
+      "ordered", [](const Mesh& v, const std::string& order) { return ordered(v, mesh_order_from(order)); },
+      py::arg("order") = "rcm", py::call_guard<py::gil_scoped_release>(),
+      "The same mesh with its points and triangles in another order: 'rcm', reverse Cuthill-McKee, for a small "
+      "bandwidth "
+      "of matrices, 'hilbert', along a Hilbert curve, or 'given'.");
+  mesh.def_property_readonly("bandwidth", &bandwidth,
+                             "The largest difference between the numbers of two points of one triangle.");
   mesh.def("__repr__", [](const Mesh& v) {
     return "<driftmesh.Mesh: " + counted(v.points.size(), "points, ") + counted(v.triangles.size(), "triangles, ") +
            counted(v.edges.size(), "edges>");

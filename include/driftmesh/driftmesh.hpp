@@ -14,6 +14,7 @@
 #include "driftmesh/files.hpp"
 #include "driftmesh/generate.hpp"
 #include "driftmesh/mesh.hpp"
+#include "driftmesh/mesh_order.hpp"
 #include "driftmesh/mesher.hpp"
 #include "driftmesh/names.hpp"
 #include "driftmesh/options.hpp"

@@ -13,6 +13,7 @@ Lengths and areas are in the units of the input, angles in degrees.
 import pathlib as _pathlib
 import tempfile as _tempfile
 
+from . import _conversions
 from ._errors import Cancelled, Error, FileError, InputError, InputWarning, LimitError
 from ._native import (CheckReport, Decomposition, DistributedPiece, GhostedPiece, Load, Mesh, Progress, Pslg,
                       SimulatedRun, SizeField, __version__, add_ghost_layer, check, cut_domain, generate, generator_names, mesh, mesh_distributed, option_table,
@@ -24,7 +25,7 @@ __all__ = ["Cancelled", "CheckReport", "Decomposition", "DistributedPiece", "Err
            "InputWarning", "LimitError", "Load", "Mesh", "Progress", "ProgressLine", "Pslg", "SimulatedRun",
            "SizeField", "__version__", "add_ghost_layer", "check", "convert", "cut_domain", "generate", "generator_names", "mesh",
            "mesh_distributed", "option_table", "outline", "plot", "read", "read_decomposition", "read_input", "read_mesh", "read_poly",
-           "simulate", "size_on_mesh", "write_distributed"]
+           "simulate", "size_on_mesh", "to_meshio", "write_distributed"]
 
 
 def read(path):
@@ -46,3 +47,12 @@ def _picture(what):
 
 
 Mesh._repr_png_ = Pslg._repr_png_ = _picture
+Mesh.__iter__ = _conversions.columns
+Mesh.to_meshio = _conversions.to_meshio
+Mesh.to_dolfinx = _conversions.to_dolfinx
+Mesh.to_ugrid = _conversions.to_ugrid
+
+
+def to_meshio(mesh):
+    """The mesh as a meshio.Mesh, as mesh.to_meshio() is."""
+    return mesh.to_meshio()

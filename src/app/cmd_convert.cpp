@@ -28,6 +28,7 @@ struct ConvertOptions {
   WriteOptions writing;
   Names names;  // replace those of the mesh
   bool boundary_only = false;
+  std::string order = kMeshOrders[0].second;
 };
 
 /// Removes subsegments with triangles on both sides.
@@ -81,6 +82,7 @@ void run_convert(const ConvertOptions& options) {
   names.regions.merge(mesh.names.regions);
   mesh.names = std::move(names);
   if (options.boundary_only) keep_boundary(mesh);
+  mesh = ordered(std::move(mesh), mesh_order_from(options.order));
   WriteOptions writing = options.writing;
   writing.warn = [](const std::string& warning) { std::cerr << "warning: " << warning << '\n'; };
   write_mesh(mesh, options.output, writing);
@@ -115,6 +117,12 @@ cli::Command convert_command() {
                    .name = "boundary-only",
                    .help = "Leave out segments inside of the domain, for programs that refuse them (deal.II)",
                    .take = cli::into(options->boundary_only)},
+                  {.name = "order",
+                   .value = "ORDER",
+                   .help = "Order of points and triangles: given, hilbert (along a Hilbert curve) or rcm (reverse "
+                           "Cuthill-McKee, for solvers: a small bandwidth)",
+                   .choices = {"given", "hilbert", "rcm"},
+                   .take = cli::into(options->order)},
                   {.name = "open-boundary",
                    .value = "MARKERS",
                    .help =

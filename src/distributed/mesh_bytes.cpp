@@ -1,9 +1,30 @@
 #include "distributed/mesh_bytes.hpp"
 
+#include <cstdint>
+#include <type_traits>
+
 #include "pslg/names.hpp"
 
 namespace driftmesh {
 namespace {
+
+template <class Stream, class Weir>
+void transfer_weir(Stream& stream, Weir& weir) {
+  stream.value(weir.type);
+  stream.array(weir.points);
+  stream.array(weir.across);
+  stream.array(weir.values);
+}
+
+template <class Stream, class Weirs>
+void transfer_weirs(Stream& stream, Weirs& weirs) {
+  auto count = static_cast<std::uint64_t>(weirs.size());
+  stream.value(count);
+  if constexpr (!std::is_const_v<Weirs>)
+    for (std::uint64_t i = 0; i < count; ++i) transfer_weir(stream, weirs.emplace_back());
+  else
+    for (const Mesh::Weir& weir : weirs) transfer_weir(stream, weir);
+}
 
 // The fields in one order for both directions: `stream` is a ByteWriter with a const mesh, or a ByteReader.
 template <class Stream, class M>
@@ -19,6 +40,7 @@ void transfer(Stream& stream, M& mesh) {
   stream.array(mesh.subdomains);
   stream.array(mesh.ranks);
   transfer_names(stream, mesh.names);
+  transfer_weirs(stream, mesh.weirs);
 }
 
 }  // namespace

@@ -229,7 +229,7 @@ Section parts_section() {
            option("aggregation", "K"), places(kMany)),
        choice("run.order", &R::run, &R::Run::order, orders,
               "Which subdomain a rank refines next: given (neighbors together), largest or backlog",
-              option("order", "ORDER")),
+              option("work-order", "ORDER")),
        key("run.slice", &R::run, &R::Run::slice, "Most points inserted between polls of the network", in(1, 1e9),
            option("slice", "N")),
        key("run.sleep", &R::run, &R::Run::sleep,
@@ -327,6 +327,7 @@ Section cluster_section() {
 }
 
 Section output_section() {
+  const Names<MeshOrder> mesh_orders(kMeshOrders.begin(), kMeshOrders.end());
   const std::string meshes_help =
       "Mesh file; its extension selects the format: " + mesh_files_described() + "; - is standard output";
   return {"Output",
@@ -335,6 +336,10 @@ Section output_section() {
           {key("output.meshes", &R::output, &R::Output::meshes, meshes_help.c_str(), option('o', "output", "FILE")),
            key("output.ascii", &R::output, &R::Output::ascii,
                "Write .msh as text, for programs that read no binary one (deal.II)", option("ascii")),
+           choice("output.order", &R::output, &R::Output::order, mesh_orders,
+                  "Order of points and triangles in files that one process writes: given (points of the domain first), "
+                  "hilbert (along a Hilbert curve) or rcm (reverse Cuthill-McKee, for solvers: a small bandwidth)",
+                  option("order", "ORDER")),
            key("output.ghost-layer", &R::output, &R::Output::ghost_layer,
                "Write the pieces of .pvtu with a ring of triangles of their neighbors, marked as ghosts",
                option("ghost-layer")),

@@ -7,6 +7,7 @@
 
 #include "cluster/cluster_spec.hpp"
 #include "driftmesh/defaults.hpp"
+#include "driftmesh/mesh_order.hpp"
 #include "mapping/mapping.hpp"
 #include "mesh/bounds.hpp"
 #include "mesh/handles.hpp"
@@ -139,6 +140,7 @@ struct Request {
   struct Output {
     std::vector<std::string> meshes;
     bool ascii = false;
+    MeshOrder order = MeshOrder::kGiven;
     bool ghost_layer = false;
     std::vector<double> open_boundary;  ///< markers
     std::string depth;                  ///< the raster that points get values of; empty: none

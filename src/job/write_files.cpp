@@ -1,6 +1,7 @@
 #include "job/write_files.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace driftmesh::job {
 
@@ -19,6 +20,7 @@ void write_whole(const Request::Output& files, Mesh& mesh, const std::vector<Poi
                  Watch& watch) {
   mesh.numbers = {};
   mesh.ranks = {};
+  if (files.order != MeshOrder::kGiven) timed(watch, "order", [&] { mesh = ordered(std::move(mesh), files.order); });
   timed(watch, "write", [&] {
     for (const std::string& path : files.meshes)
       if (!is_in_pieces(path)) write_mesh(mesh, path, writing_of(files, holes, watch));

@@ -705,7 +705,7 @@ class Mesh(Cli):
     def test_the_full_protocol_makes_a_mesh_that_check_accepts(self):
         self.succeed("generate", "holes", *KINDS["holes"], "-o", "holes.poly")
         self.succeed("decompose", "holes.poly", "-n", "12", "-o", "holes.decomposition")
-        for options in ["--presplit", "off"], ["--presplit", "off", "--aggregation", "1", "--order", "backlog"]:
+        for options in ["--presplit", "off"], ["--presplit", "off", "--aggregation", "1", "--work-order", "backlog"]:
             result = self.on_ranks(3, "mesh", "holes.poly", "--area", "0.01", "--decomposition", "holes.decomposition",
                                    *options, "-o", "holes.pvtu", "-o", "holes.msh", "--json", "run.json")
             self.assertEqual(result.returncode, 0, result.stderr)

@@ -83,7 +83,7 @@ class Completion(Cli):
         "driftmesh generate ": KINDS,
         "driftmesh generate bay --r": ["--resolution", "--roughness"],
         "driftmesh mesh --ar": ["--area"],
-        "driftmesh mesh --order ": ["backlog", "given", "largest"],
+        "driftmesh mesh --work-order ": ["backlog", "given", "largest"],
         "driftmesh mesh --method ": ["coupled", "decoupled"],  # not what only experiments have
         "driftmesh mesh --balance ": ["diffusion", "greedy", "none", "stealing", "zoltan"],
         "driftmesh mesh b": ["bay.poly", "bay.vtu"],
@@ -123,14 +123,14 @@ class Completion(Cli):
             with self.subTest(line=line):
                 found = self.run_shell("bash", "-uc", complete, "bash", *line.split(" "))
                 self.assertEqual(found, [name.rstrip("/") for name in expected])
-        for words, expected in ((["--order", "=", "la"], ["largest"]), (["--order", "="], ["backlog", "given", "largest"]),
+        for words, expected in ((["--work-order", "=", "la"], ["largest"]), (["--work-order", "="], ["backlog", "given", "largest"]),
                                 (["--area", ""], [""]), (["--area", "b"], [""])):
             self.assertEqual(self.run_shell("bash", "-uc", complete, "bash", "driftmesh", "mesh", *words), expected)
 
     def test_fish(self):
         self.needed("fish")
         script = self.script("fish", "script")
-        for line, expected in {**self.CASES, "driftmesh mesh --order=la": ["--order=largest"],
+        for line, expected in {**self.CASES, "driftmesh mesh --work-order=la": ["--work-order=largest"],
                                "driftmesh mesh --area b": []}.items():
             with self.subTest(line=line):
                 found = self.run_shell("fish", "--no-config", "-c", f"source {script}; complete -C '{line}'")
@@ -155,7 +155,7 @@ _driftmesh
         self.needed("zsh")
         script = self.script("zsh", "_driftmesh")
         self.run_shell("zsh", "-fn", script)
-        for line, expected in {**self.CASES, "driftmesh mesh --order=la": ["largest"], "driftmesh mesh --area ": []}.items():
+        for line, expected in {**self.CASES, "driftmesh mesh --work-order=la": ["largest"], "driftmesh mesh --area ": []}.items():
             with self.subTest(line=line):
                 words = line.split(" ")
                 offered = self.run_shell("zsh", "-fuc", self.ZSH, "zsh", script, *words)
