@@ -192,7 +192,8 @@ class Formats(Cli):
         self.refuse("convert", "m.vtu", "x.pmesh", says=["x.pmesh", ".mesh"])
         self.succeed("convert", "m.vtu", "again.mesh")
         self.assertEqual((self.folder / "m.mesh").read_text(), (self.folder / "again.mesh").read_text())
-        self.refuse("check", "m.mesh", code=2, says=["is written, but not read"])
+        self.succeed("check", "m.mesh", "in.poly")
+        self.refuse("check", "m.pmesh", code=2, says=["is written, but not read"])
         self.assertEqual(self.files(), ["again.mesh", "in.poly", "m.mesh", "m.vtu"])
 
     def test_separators_are_constraints_in_triangles_files_and_nothing_else(self):

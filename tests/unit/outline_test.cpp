@@ -119,7 +119,7 @@ TEST_CASE("what has no outline is refused") {
   CHECK(error_text<InputError>([&] { static_cast<void>(outline(mesh, "a.vtu")); }).find("its boundary encloses") !=
         std::string::npos);
   const TemporaryFolder folder;
-  const std::string path = (folder.path() / "a.mesh").string();
+  const std::string path = (folder.path() / "a.pmesh").string();
   CHECK(error_text<InputError>([&] { static_cast<void>(read_input(path)); }).find("is written, but not read") !=
         std::string::npos);
 }
