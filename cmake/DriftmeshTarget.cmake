@@ -32,13 +32,22 @@ function(driftmesh_compile_together TARGET)
   endif()
 endfunction()
 
-# driftmesh_library(NAME [COLD] SOURCES a.cpp ... DEPENDS other boxes LIBS outside libraries)
+# driftmesh_library(NAME [COLD] SOURCES a.cpp ... [NEED lib b.cpp ... ELSE c.cpp ...] DEPENDS other boxes LIBS outside libraries)
 # One box, which is the folder that this is called in. It includes headers of each box that DEPENDS names, and of no other;
 # LIBS names the outside libraries (see OutsideLibraries.cmake) whose headers it includes or gets from another box's header.
+# Sources that NEED a library are compiled where the build has it, those of ELSE where it does not: they refuse what takes it.
 # COLD is for boxes in which no run spends time worth saving: they are compiled with fewer optimizations, in three quarters of the time.
 # tests/structure/check_includes.py holds the sources to these declarations.
 function(driftmesh_library NAME)
-  cmake_parse_arguments(ARG "COLD" "" "SOURCES;DEPENDS;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "COLD" "" "SOURCES;NEED;ELSE;DEPENDS;LIBS" ${ARGN})
+  if(ARG_NEED)
+    list(POP_FRONT ARG_NEED needed)
+    if(driftmesh_has_${needed})
+      list(APPEND ARG_SOURCES ${ARG_NEED})
+    else()
+      list(APPEND ARG_SOURCES ${ARG_ELSE})
+    endif()
+  endif()
   if(ARG_SOURCES)
     add_library(dm_${NAME} STATIC ${ARG_SOURCES})
     if(DRIFTMESH_PYTHON)  # the module is a shared library, whose functions call each other directly all the same

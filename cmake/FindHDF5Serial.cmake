@@ -14,4 +14,8 @@ if(HDF5Serial_FOUND AND NOT TARGET HDF5Serial::hdf5)
   add_library(HDF5Serial::hdf5 UNKNOWN IMPORTED)
   set_target_properties(HDF5Serial::hdf5 PROPERTIES IMPORTED_LOCATION "${HDF5Serial_LIBRARY}"
                                                     INTERFACE_INCLUDE_DIRECTORIES "${HDF5Serial_INCLUDE_DIR}")
+  if(HDF5Serial_LIBRARY MATCHES "[.]a$")  # a static library does not say what it needs
+    find_package(ZLIB REQUIRED)
+    set_property(TARGET HDF5Serial::hdf5 PROPERTY INTERFACE_LINK_LIBRARIES ZLIB::ZLIB ${CMAKE_DL_LIBS} m)
+  endif()
 endif()

@@ -6,16 +6,18 @@ include(CMakePackageConfigHelpers)
 set(DRIFTMESH_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/driftmesh)
 
 # ---- The program ----
-install(TARGETS driftmesh RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
-install(DIRECTORY ${PROJECT_BINARY_DIR}/share/ DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT program)  # manual, completion
-install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/driftmesh COMPONENT program)
-install(FILES README.md CHANGELOG.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
-install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT program)
+if(DRIFTMESH_MPI)
+  install(TARGETS driftmesh RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/share/ DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT program)  # manual, completion
+  install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/driftmesh COMPONENT program)
+  install(FILES README.md CHANGELOG.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+  install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT program)
+endif()
 
 # ---- The library ----
 install(DIRECTORY include/driftmesh DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
         FILES_MATCHING PATTERN "*.hpp")
-foreach(name IN ITEMS driftmesh distributed pictures)
+foreach(name IN LISTS driftmesh_products)
   install(TARGETS driftmesh_${name}_product EXPORT driftmesh-${name}
           LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
@@ -31,14 +33,26 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/driftmeshConfig.cmake ${CMAKE_CURRENT_
         DESTINATION ${DRIFTMESH_CMAKE_DIR} COMPONENT development)
 
 # A shared library finds by itself what it needs; who links the static one has to name it.
-set(pc_needs "-lhdf5_serial -lmetis -lboost_serialization -lfmt -lz")
+set(pc_needs)
+foreach(need IN ITEMS HDF5:hdf5_serial METIS:metis ZLIB:z)
+  string(REPLACE ":" ";" need ${need})
+  list(GET need 0 part)
+  list(GET need 1 library)
+  if(DRIFTMESH_${part})
+    string(APPEND pc_needs " -l${library}")
+  endif()
+endforeach()
 set(pc_distributed_needs "-ltrilinos_zoltan")
 if(BUILD_SHARED_LIBS)
   set(pc_needs)
   set(pc_distributed_needs)
 endif()
 file(RELATIVE_PATH pc_to_prefix "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
-foreach(file IN ITEMS driftmesh.pc driftmesh-distributed.pc)
+set(pc_files driftmesh.pc)
+if(DRIFTMESH_MPI)
+  list(APPEND pc_files driftmesh-distributed.pc)
+endif()
+foreach(file IN LISTS pc_files)
   configure_file(cmake/${file}.in ${file} @ONLY)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${file} DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 endforeach()
@@ -50,7 +64,10 @@ set(CPACK_PACKAGE_CONTACT "The driftmesh authors <driftmesh@example.org>" CACHE 
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_COMPONENTS_ALL development)
+if(DRIFTMESH_MPI)
+  list(PREPEND CPACK_COMPONENTS_ALL program)
+endif()
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -70,7 +87,7 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Makes, checks, converts and draws trian
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libdriftmesh-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "libboost-serialization-dev, libfmt-dev, libhdf5-dev, libmetis-dev, zlib1g-dev")
+    "libhdf5-dev, libmetis-dev, zlib1g-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libcairo2-dev, libopenmpi-dev, libtrilinos-zoltan-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "The library of driftmesh: headers, static libraries, CMake package.
  driftmesh::driftmesh makes meshes in one process, driftmesh::distributed on the

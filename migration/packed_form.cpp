@@ -19,19 +19,22 @@ static_assert(std::has_unique_object_representations_v<driftmesh::RootSegment>);
 static_assert(std::has_unique_object_representations_v<driftmesh::Sweep::Places>);
 static_assert(std::has_unique_object_representations_v<driftmesh::RefineCounters>);
 static_assert(sizeof(driftmesh::Point) == 2 * sizeof(double));
-BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::Triangle)
-BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::Subsegment)
-BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::RootSegment)
-BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::Sweep::Places)
-BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::RefineCounters)
-BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::Point)
-BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::VertexId)
-BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::TriangleId)
-BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::SubsegmentId)
-BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::GlobalRootId)
-BOOST_IS_BITWISE_SERIALIZABLE(driftmesh::GlobalPointId)
 
 namespace driftmesh {
+
+template <>
+inline constexpr bool kIsFlat<Triangle> = true;
+template <>
+inline constexpr bool kIsFlat<Subsegment> = true;
+template <>
+inline constexpr bool kIsFlat<RootSegment> = true;
+template <>
+inline constexpr bool kIsFlat<Sweep::Places> = true;
+template <>
+inline constexpr bool kIsFlat<RefineCounters> = true;
+template <>
+inline constexpr bool kIsFlat<Point> = true;
+
 namespace {
 
 #ifdef DRIFTMESH_CHECKED
@@ -245,8 +248,6 @@ template <class Step>
 std::string complaint_of(Step&& step) {
   try {
     step();
-  } catch (const boost::archive::archive_exception& error) {
-    return error.what();
   } catch (const Error& error) {
     return error.what();
   }
@@ -270,19 +271,17 @@ Bytes pack(const SubdomainView& subdomain) {
   SealedBytes bytes(kSmallArrays + (subdomain.body                 ? mesh_bytes(subdomain.body->part.mesh)
                                     : subdomain.dormant != nullptr ? subdomain.dormant->mesh.bytes()
                                                                    : 0));
-  {
-    ArchiveWriter out(bytes);
-    out.value(subdomain.id);
-    out.value(static_cast<std::uint8_t>(subdomain.refined));
-    out.value(content_of(subdomain));
-    save_points(out, subdomain.pending);
-    if (subdomain.body) {
-      out.value(subdomain.body->forecast);
-      transfer_mesh(out, subdomain.body->part);
-      save_refiner(out, subdomain.body->refiner, subdomain.body->part.mesh.points.size());
-    }
-    if (subdomain.dormant != nullptr) transfer_dormant(out, *subdomain.dormant);
+  ArchiveWriter out(bytes);
+  out.value(subdomain.id);
+  out.value(static_cast<std::uint8_t>(subdomain.refined));
+  out.value(content_of(subdomain));
+  save_points(out, subdomain.pending);
+  if (subdomain.body) {
+    out.value(subdomain.body->forecast);
+    transfer_mesh(out, subdomain.body->part);
+    save_refiner(out, subdomain.body->refiner, subdomain.body->part.mesh.points.size());
   }
+  if (subdomain.dormant != nullptr) transfer_dormant(out, *subdomain.dormant);
   return bytes.take();
 }
 

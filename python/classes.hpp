@@ -8,8 +8,6 @@ namespace driftmesh::python {
 void add_mesh_classes(pybind11::module_& module);
 void add_report_class(pybind11::module_& module);
 void add_load_class(pybind11::module_& module);
-void add_distributed(pybind11::module_& module);
-void add_simulated(pybind11::module_& module);
 void add_size_class(pybind11::module_& module);
 void add_decomposition_class(pybind11::module_& module);
 void add_plot(pybind11::module_& module);

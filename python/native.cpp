@@ -15,6 +15,4 @@ PYBIND11_MODULE(_native, module) {
   driftmesh::python::add_decomposition_class(module);
   driftmesh::python::add_plot(module);
   driftmesh::python::add_load_class(module);
-  driftmesh::python::add_distributed(module);
-  driftmesh::python::add_simulated(module);
 }

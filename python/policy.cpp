@@ -10,16 +10,17 @@
 #include "table.hpp"
 
 namespace driftmesh::python {
-namespace {
 
 using balancer::LoadSnapshot;
 using balancer::Move;
 
-/// A snapshot and what is derived from it, as Python keeps it.
+/// A snapshot and what is derived from it, as Python keeps it. One type for both modules, so it must have a name.
 struct Load {
   LoadSnapshot snapshot;
   std::vector<double> speeds;
 };
+
+namespace {
 
 std::int32_t entry(const py::handle& pair, std::size_t k) {
   return short_integer_from("a move", pair[py::int_(k)]);

@@ -10,22 +10,42 @@
 Lengths and areas are in the units of the input, angles in degrees.
 """
 
+import importlib.util as _importlib_util
 import pathlib as _pathlib
 import tempfile as _tempfile
 
 from . import _conversions
 from ._errors import Cancelled, Error, FileError, InputError, InputWarning, LimitError
-from ._native import (CheckReport, Decomposition, DistributedPiece, GhostedPiece, Load, Mesh, Progress, Pslg,
-                      SimulatedRun, SizeField, __version__, add_ghost_layer, check, cut_domain, generate, generator_names, mesh, mesh_distributed, option_table,
-                      outline, plot, read_decomposition, read_input, read_mesh, read_poly, simulate, size_on_mesh, write_distributed)
+from ._native import (CheckReport, Decomposition, Load, Mesh, Progress, Pslg, SizeField, __version__, check, cut_domain, generate,
+                      generator_names, mesh, option_table, outline, plot, read_decomposition, read_input, read_mesh, read_poly, size_on_mesh)
 from ._native import holds_input as _holds_input
 from ._progress import ProgressLine
 
-__all__ = ["Cancelled", "CheckReport", "Decomposition", "DistributedPiece", "Error", "FileError", "GhostedPiece", "InputError",
-           "InputWarning", "LimitError", "Load", "Mesh", "Progress", "ProgressLine", "Pslg", "SimulatedRun",
-           "SizeField", "__version__", "add_ghost_layer", "check", "convert", "cut_domain", "generate", "generator_names", "mesh",
-           "mesh_distributed", "option_table", "outline", "plot", "read", "read_decomposition", "read_input", "read_mesh", "read_poly",
-           "simulate", "size_on_mesh", "to_meshio", "write_distributed"]
+# What needs MPI is a module of its own, loaded when one of these is first asked for; a package that was built without MPI lacks it.
+_OF_RANKS = ["DistributedPiece", "GhostedPiece", "SimulatedRun", "add_ghost_layer", "mesh_distributed", "simulate", "write_distributed"]
+
+__all__ = ["Cancelled", "CheckReport", "Decomposition", "Error", "FileError", "InputError", "InputWarning", "LimitError", "Load",
+           "Mesh", "Progress", "ProgressLine", "Pslg", "SizeField", "__version__", "check", "convert", "cut_domain", "generate",
+           "generator_names", "mesh", "option_table", "outline", "plot", "read", "read_decomposition", "read_input", "read_mesh",
+           "read_poly", "size_on_mesh", "to_meshio"]
+if _importlib_util.find_spec("._ranks", __name__):
+    __all__ += _OF_RANKS
+
+
+def __getattr__(name):
+    if name not in _OF_RANKS:
+        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+    try:
+        from . import _ranks
+    except ImportError as missing:
+        why = f"which cannot be loaded ({missing})" if name in __all__ else "which this package was built without"
+        raise ImportError(f"driftmesh.{name} needs MPI, {why}; build driftmesh from its source where MPI is (docs/install.md)") from missing
+    globals().update({each: getattr(_ranks, each) for each in _OF_RANKS})
+    return globals()[name]
+
+
+def __dir__():
+    return sorted({*globals(), *__all__})
 
 
 def read(path):

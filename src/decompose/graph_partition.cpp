@@ -39,6 +39,10 @@ std::mutex one_at_a_time;
 
 }  // namespace
 
+bool can_partition_graphs() {
+  return true;
+}
+
 IdVector<std::int32_t, std::int32_t> partition_graph(const WeightedGraph& graph, const std::vector<double>& shares,
                                                      PartitionMethod method, std::int32_t seed) {
   DM_ASSERT(!shares.empty() && graph.begin.size() == graph.size() + 1);

@@ -21,9 +21,13 @@ enum class PartitionMethod {
   kDirect,     ///< k-way: better for more
 };
 
+/// Whether this build can, by METIS. Without, cuts join pieces one by one instead.
+[[nodiscard]] bool can_partition_graphs();
+
 /// Partitions a graph into parts with the given shares of the weight (positive, on any scale, one for each part) and
 /// little edge weight between them. A part may be empty or disconnected. Deterministic for a seed, whatever other
-/// threads do; concurrent calls are serialized. Uses METIS (Karypis and Kumar 1998). Throws Error if METIS fails.
+/// threads do; concurrent calls are serialized. Uses METIS (Karypis and Kumar 1998). Throws Error if METIS fails
+/// or this build lacks it.
 [[nodiscard]] IdVector<std::int32_t, std::int32_t> partition_graph(const WeightedGraph& graph,
                                                                    const std::vector<double>& shares,
                                                                    PartitionMethod method, std::int32_t seed = 1);

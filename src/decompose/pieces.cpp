@@ -288,7 +288,7 @@ IdVector<PieceId, SubdomainId> group_pieces(const PlanarMap& map, const IdVector
   const WeightedGraph graph = graph_of(map, pieces);
   Groups groups(graph);
   join_bundles(pieces, groups);
-  if (pieces.size() > 2 * to_index(count)) join_by_partition(graph, count, groups);
+  if (pieces.size() > 2 * to_index(count) && can_partition_graphs()) join_by_partition(graph, count, groups);
   while (groups.count() > to_index(count) && groups.join_lightest()) {
   }
   IdVector<PieceId, SubdomainId> number(pieces.size(), kNoSubdomain), group_of;

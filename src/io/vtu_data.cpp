@@ -1,15 +1,13 @@
 #include "io/vtu_data.hpp"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <cstring>
-#include <new>
 #include <utility>
 
 #include "driftmesh/error.hpp"
 #include "io/byte_cursor.hpp"
 #include "io/read_checks.hpp"
+#include "zlib/unpacker.hpp"
 
 namespace driftmesh {
 namespace {
@@ -110,15 +108,11 @@ std::uint64_t VtuData::announced(const VtuHeader::Array& array) const {
 class VtuBytes::Inflater {
  public:
   Inflater(VtuData::Blocks blocks, const VtuData& data, const VtuHeader::Array& array)
-      : blocks_(std::move(blocks)), data_(data), array_(array) {
+      : blocks_(std::move(blocks)), data_(data), array_(array), unpacker_(data.file_) {
     for (std::size_t i = 0; i < blocks_.compressed.size(); ++i)
       if (blocks_.size_of(i) / kMostShrunk > blocks_.compressed[i])
         data_.fail(array_, "has a block of impossible size");
-    if (inflateInit(&stream_) != Z_OK) throw std::bad_alloc();
   }
-  ~Inflater() { inflateEnd(&stream_); }
-  Inflater(const Inflater&) = delete;
-  Inflater& operator=(const Inflater&) = delete;
 
   /// Appends `wanted` bytes to `out`.
   void unpack(EncodedBytes& in, std::size_t wanted, std::string& out) {
@@ -133,45 +127,25 @@ class VtuBytes::Inflater {
 
  private:
   void begin_block(EncodedBytes& in) {
-    if (!in.take_view(blocks_.compressed[next_], packed_)) {
+    std::string_view packed;
+    if (!in.take_view(blocks_.compressed[next_], packed)) {
       if (!in.take(blocks_.compressed[next_], decoded_)) data_.fail(array_, "is cut off");
-      packed_ = decoded_;
+      packed = decoded_;
     }
-    inflateReset(&stream_);
+    unpacker_.begin(packed);
     left_ = blocks_.size_of(next_++);
   }
 
   void inflate_into(std::string& out, std::size_t count) {
     const std::size_t begin = out.size();
     out.resize(begin + count);
-    if (step(out.data() + begin, count) != count) fail();
+    if (unpacker_.take(out.data() + begin, count) != count) fail();
   }
 
   /// The stream must end here, which takes reading what follows the last byte.
   void end_block() {
     char behind = 0;
-    if (step(&behind, 1) != 0 || !at_end_ || !packed_.empty()) fail();
-  }
-
-  /// Inflates up to `count` bytes to `to`; returns how many.
-  std::size_t step(char* to, std::size_t count) {
-    constexpr std::size_t kMost = std::size_t{1} << 30;  // zlib counts with 32 bits
-    const std::size_t wanted = count;
-    at_end_ = false;
-    while (!at_end_) {
-      const std::size_t given = std::min(packed_.size(), kMost);
-      stream_.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(packed_.data()));  // NOLINT: zlib reads only
-      stream_.avail_in = static_cast<uInt>(given);
-      stream_.next_out = reinterpret_cast<Bytef*>(to);
-      stream_.avail_out = static_cast<uInt>(count);
-      const int result = ::inflate(&stream_, Z_NO_FLUSH);
-      packed_.remove_prefix(given - stream_.avail_in);
-      to += count - stream_.avail_out;
-      count = stream_.avail_out;
-      at_end_ = result == Z_STREAM_END;
-      if (count == 0 || (result != Z_OK && !at_end_)) break;
-    }
-    return wanted - count;
+    if (unpacker_.take(&behind, 1) != 0 || !unpacker_.at_end()) fail();
   }
 
   [[noreturn]] void fail() const {
@@ -182,12 +156,10 @@ class VtuBytes::Inflater {
   VtuData::Blocks blocks_;
   const VtuData& data_;
   const VtuHeader::Array& array_;
-  z_stream stream_{};
+  Unpacker unpacker_;
   std::size_t next_ = 0;    // block
   std::uint64_t left_ = 0;  // bytes of the present block, unpacked
-  std::string_view packed_;
   std::string decoded_;
-  bool at_end_ = false;
 };
 
 VtuBytes::VtuBytes(const VtuData& data, const VtuHeader::Array& array, std::uint64_t count)

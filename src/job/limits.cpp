@@ -1,10 +1,9 @@
 #include "job/limits.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "base/formatted.hpp"
 #include "base/keep_memory.hpp"
 #include "base/key_error.hpp"
 #include "base/words.hpp"
@@ -66,7 +65,7 @@ KeyText advice(const Limits& limits, bool by_memory) {
 
 /// Good angles require triangles as small as the gap all along it.
 KeyText narrow_words(const NarrowPlace& narrow, bool by_memory) {
-  const std::string place = fmt::format(
+  const std::string place = formatted(
       "near ({:.10g}, {:.10g}) two segments of the input that do not touch are {:.3g} apart and run side by side for "
       "{:.3g}, which alone takes about {} triangles at any area bound",
       narrow.at.x, narrow.at.y, narrow.width, narrow.length, estimate_words(narrow.triangles));
@@ -75,13 +74,13 @@ KeyText narrow_words(const NarrowPlace& narrow, bool by_memory) {
 
 KeyText words_of(const Limits& limits) {
   if (!limits.by_memory()) return KeyText::of("the {} of {limits.max-triangles}", grouped(limits.triangles));
-  return fmt::format("the {} for which {} of memory suffice", grouped(limits.in_memory), bytes_words(limits.memory));
+  return formatted("the {} for which {} of memory suffice", grouped(limits.in_memory), bytes_words(limits.memory));
 }
 
 KeyText reached_words(const Limits& limits, bool by_memory) {
   if (!by_memory) return KeyText::of("the {} of {limits.max-triangles}", grouped(limits.triangles));
-  return fmt::format("which fill {} of memory{}", bytes_words(limits.memory),
-                     limits.bytes_finishing > 0 ? " together with what it takes to finish them" : "");
+  return formatted("which fill {} of memory{}", bytes_words(limits.memory),
+                   limits.bytes_finishing > 0 ? " together with what it takes to finish them" : "");
 }
 
 }  // namespace
@@ -150,15 +149,15 @@ void check_capacity(double subdomain, double file, EntryPoint by) {
         estimate_words(subdomain), grouped(kCapacity)));
   if (file > kMostInFile && by == kLibrary)
     throw LimitError(
-        fmt::format("the mesh would have about {} triangles, more than the {} whose corners its arrays can "
-                    "number; make it on many ranks, or ask for larger triangles",
-                    estimate_words(file), grouped(static_cast<std::int64_t>(kMostInFile))));
+        formatted("the mesh would have about {} triangles, more than the {} whose corners its arrays can "
+                  "number; make it on many ranks, or ask for larger triangles",
+                  estimate_words(file), grouped(static_cast<std::int64_t>(kMostInFile))));
   if (file > kMostInFile)
     throw LimitError(
-        fmt::format("a file would have about {} triangles, more than the {} that it can number; write a .pvtu instead, "
-                    "on more ranks "
-                    "if there are ranks, or ask for larger triangles",
-                    estimate_words(file), grouped(static_cast<std::int64_t>(kMostInFile))));
+        formatted("a file would have about {} triangles, more than the {} that it can number; write a .pvtu instead, "
+                  "on more ranks "
+                  "if there are ranks, or ask for larger triangles",
+                  estimate_words(file), grouped(static_cast<std::int64_t>(kMostInFile))));
 }
 
 KeyText stopped_message(const Limits& limits, bool by_memory, std::int64_t triangles, bool kept,

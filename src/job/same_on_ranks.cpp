@@ -1,7 +1,5 @@
 #include "job/same_on_ranks.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -9,6 +7,7 @@
 #include <utility>
 
 #include "base/bytes.hpp"
+#include "base/formatted.hpp"
 #include "base/key_error.hpp"
 #include "geometry/midpoint.hpp"
 #include "job/failure.hpp"
@@ -54,7 +53,7 @@ std::string ranks_words(const std::vector<Rank>& ranks) {
   }
   const std::string last = std::exchange(words.back(), "");
   words.pop_back();
-  return fmt::format("ranks {} and {}", fmt::join(words, ", "), last);
+  return formatted("ranks {} and {}", joined(words, ", "), last);
 }
 
 void compare(const std::vector<RankSetting>& own, const std::vector<Bytes>& of_ranks) {
@@ -148,10 +147,10 @@ void require_same_size(Team& team, const Decomposition& decomposition, const Siz
     if (differences[to_index(r)].empty()) continue;
     const auto [k, length] = ByteReader(differences[to_index(r)]).value<Difference>();
     throw Error(
-        fmt::format("the size field differs between ranks: at ({}, {}) it is {} on rank 0 and {} on rank {}; "
-                    "give the same on each rank, such as one made of the values of all ranks",
-                    shortest_text(points[k].x), shortest_text(points[k].y), shortest_text(of_first[k]),
-                    shortest_text(length), to_string(r)));
+        formatted("the size field differs between ranks: at ({}, {}) it is {} on rank 0 and {} on rank {}; "
+                  "give the same on each rank, such as one made of the values of all ranks",
+                  shortest_text(points[k].x), shortest_text(points[k].y), shortest_text(of_first[k]),
+                  shortest_text(length), to_string(r)));
   }
 }
 

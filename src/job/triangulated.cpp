@@ -1,12 +1,11 @@
 #include "job/triangulated.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/formatted.hpp"
 #include "base/words.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "job/value.hpp"
@@ -39,9 +38,9 @@ std::vector<std::string> count_warnings(double wanted, double forecast) {
   constexpr double kMuch = 1.1;
   if (wanted == 0 || forecast <= kMuch * wanted) return {};
   return {
-      fmt::format("{} triangles are wanted, but angles, sizes and the details of the input take about {}; allow "
-                  "smaller angles, ask for greater lengths, or have details removed (simplify)",
-                  estimate_words(wanted), estimate_words(forecast))};
+      formatted("{} triangles are wanted, but angles, sizes and the details of the input take about {}; allow "
+                "smaller angles, ask for greater lengths, or have details removed (simplify)",
+                estimate_words(wanted), estimate_words(forecast))};
 }
 
 /// One place where the background mesh does not say what size is asked for, if there is one.
@@ -75,8 +74,8 @@ std::vector<std::string> narrow_warnings(const Triangulation& mesh, const Qualit
   const NarrowPlace& worst = places.front();
   if (worst.triangles < kMany && (all < kMany || all < forecast / 2)) return {};
   const std::string others =
-      places.size() == 1 ? "" : fmt::format(", and {} for {} such places together", estimate_words(all), places.size());
-  return {fmt::format(
+      places.size() == 1 ? "" : formatted(", and {} for {} such places together", estimate_words(all), places.size());
+  return {formatted(
       "near ({:.10g}, {:.10g}) two segments of the input that do not touch are {:.3g} apart and run side by side for "
       "{:.3g}, which takes about {} triangles at any area bound{}; move them apart there, or have the input snapped",
       worst.at.x, worst.at.y, worst.width, worst.length, estimate_words(worst.triangles), others)};

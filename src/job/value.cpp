@@ -1,11 +1,11 @@
 #include "job/value.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <string_view>
+
+#include "base/formatted.hpp"
 
 namespace driftmesh::job {
 namespace {
@@ -25,16 +25,16 @@ bool is_plain(const std::string& text) {
 }
 
 template <class Items, class TextOf>
-std::string joined(const Items& items, const TextOf& item_text) {
+std::string listed(const Items& items, const TextOf& item_text) {
   std::vector<std::string> texts;
   for (const auto& item : items) texts.push_back(item_text(item));
-  return fmt::format("{}", fmt::join(texts, ", "));
+  return joined(texts, ", ");
 }
 
 std::string record_text(const Record& record) {
-  return fmt::format("{{{}}}", joined(record, [](const auto& field) {
-                       return fmt::format("{}: {}", field.first, text_of(field.second));
-                     }));
+  return formatted("{{{}}}", listed(record, [](const auto& field) {
+                     return formatted("{}: {}", field.first, text_of(field.second));
+                   }));
 }
 
 struct TextOf {
@@ -43,18 +43,18 @@ struct TextOf {
   std::string operator()(double value) const { return shortest_text(value); }
   std::string operator()(const std::string& value) const { return yaml_text(value); }
   std::string operator()(const std::vector<double>& value) const {
-    return fmt::format("[{}]", joined(value, shortest_text));
+    return formatted("[{}]", listed(value, shortest_text));
   }
   std::string operator()(const std::vector<std::string>& value) const {
-    return fmt::format("[{}]", joined(value, yaml_text));
+    return formatted("[{}]", listed(value, yaml_text));
   }
   std::string operator()(const std::map<std::string, std::string>& value) const {
-    return fmt::format("{{{}}}", joined(value, [](const auto& entry) {
-                         return fmt::format("{}: {}", entry.first, yaml_text(entry.second));
-                       }));
+    return formatted("{{{}}}", listed(value, [](const auto& entry) {
+                       return formatted("{}: {}", entry.first, yaml_text(entry.second));
+                     }));
   }
   std::string operator()(const std::vector<Record>& value) const {
-    return fmt::format("[{}]", joined(value, record_text));
+    return formatted("[{}]", listed(value, record_text));
   }
 };
 
@@ -62,7 +62,7 @@ struct TextOf {
 
 std::string shortest_text(double number) {
   constexpr double kPlain = 1e15;
-  if (std::fabs(number) < kPlain && number == std::floor(number)) return fmt::format("{:.0f}", number);
+  if (std::fabs(number) < kPlain && number == std::floor(number)) return formatted("{:.0f}", number);
   std::array<char, 32> text;
   char* const end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
   return std::string(text.data(), end);
@@ -77,7 +77,7 @@ std::string yaml_text(const std::string& text) {
       quoted += '\\';
       quoted += c;
     } else if (static_cast<unsigned char>(c) < 0x20) {
-      quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+      quoted += formatted("\\u{:04x}", static_cast<unsigned>(c));
     } else {
       quoted += c;
     }

@@ -1,12 +1,11 @@
 #include "verify/arrangement_sweep.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <iterator>
 #include <numeric>
 #include <tuple>
 
+#include "base/formatted.hpp"
 #include "driftmesh/id_vector.hpp"
 #include "geometry/predicates.hpp"
 #include "verify/words.hpp"
@@ -143,8 +142,8 @@ void ArrangementSweep::visit_point(std::int32_t point) {
   if (above != status_.end() && side_of(*above, at(point)) == 0) {
     const Point& p = at(point);
     const Point &a = at(span(*above).low), &b = at(span(*above).high);
-    conflict_ = fmt::format("({:.17g}, {:.17g}) lies on the segment from ({:.17g}, {:.17g}) to ({:.17g}, {:.17g})", p.x,
-                            p.y, a.x, a.y, b.x, b.y);
+    conflict_ = formatted("({:.17g}, {:.17g}) lies on the segment from ({:.17g}, {:.17g}) to ({:.17g}, {:.17g})", p.x,
+                          p.y, a.x, a.y, b.x, b.y);
     return;
   }
   const std::int32_t below = above == status_.begin() ? kNothing : *std::prev(above);
@@ -174,7 +173,7 @@ void ArrangementSweep::check_neighbors(std::int32_t below, Status::iterator uppe
 
 void ArrangementSweep::report(const char* what, std::int32_t link, std::int32_t other) {
   const Point &a = at(span(link).low), &b = at(span(link).high), &c = at(span(other).low), &d = at(span(other).high);
-  conflict_ = fmt::format(
+  conflict_ = formatted(
       "the segments from ({:.17g}, {:.17g}) to ({:.17g}, {:.17g}) and from ({:.17g}, {:.17g}) to ({:.17g}, {:.17g}) {}",
       a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y, what);
 }

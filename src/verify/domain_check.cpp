@@ -1,12 +1,11 @@
 #include "verify/domain_check.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
 #include <utility>
 
+#include "base/formatted.hpp"
 #include "driftmesh/id_vector.hpp"
 #include "verify/arrangement.hpp"
 #include "verify/extended.hpp"
@@ -49,10 +48,10 @@ void check_embedding(const NamedMesh& mesh, const std::vector<Mesh::Edge>& bound
     if (known == kUnseen) known = expected;
     if (known != expected)
       findings.add(Flaw::kOverlap, [&] {
-        return fmt::format("boundary {}: the {} side is {} by triangles, the rest of that face is {}",
-                           edge_words(mesh, boundary[edge].a, boundary[edge].b),
-                           expected == kCovered ? "left" : "right", expected == kCovered ? "covered" : "not covered",
-                           expected == kCovered ? "outside or not covered" : "covered");
+        return formatted("boundary {}: the {} side is {} by triangles, the rest of that face is {}",
+                         edge_words(mesh, boundary[edge].a, boundary[edge].b), expected == kCovered ? "left" : "right",
+                         expected == kCovered ? "covered" : "not covered",
+                         expected == kCovered ? "outside or not covered" : "covered");
       });
   };
   for (std::size_t i = 0; i < boundary.size(); ++i) {
@@ -84,14 +83,13 @@ void DomainCheck::check_points() {
   for (std::size_t p = 0; p < vertex_of_point_.size(); ++p)
     if (domain_.point_inside(static_cast<std::int32_t>(p)) && vertex_of_point_[p] == kNone)
       findings_.add(Flaw::kPointMissing, [&] {
-        return fmt::format("the input point {} lies in the domain and is not a vertex",
-                           place_words(domain_.points()[p]));
+        return formatted("the input point {} lies in the domain and is not a vertex", place_words(domain_.points()[p]));
       });
 }
 
 std::string DomainCheck::chain_words(const Chains::Chain& chain) const {
-  return fmt::format("the chain of {} subsegments from {} to {}", chain.subsegments.size(),
-                     point_words(names_, chain.vertices.front()), point_words(names_, chain.vertices.back()));
+  return formatted("the chain of {} subsegments from {} to {}", chain.subsegments.size(),
+                   point_words(names_, chain.vertices.front()), point_words(names_, chain.vertices.back()));
 }
 
 void DomainCheck::check_chains() {
@@ -124,8 +122,8 @@ void DomainCheck::check_chains() {
   for (std::size_t i = 0; i < segments.size(); ++i)
     if (!found[i] && domain_.inside(segments[i]))
       findings_.add(Flaw::kSegmentMissing, [&] {
-        return fmt::format("no chain of subsegments joins the ends {} and {} of an input segment",
-                           place_words(domain_.points()[segments[i].a]), place_words(domain_.points()[segments[i].b]));
+        return formatted("no chain of subsegments joins the ends {} and {} of an input segment",
+                         place_words(domain_.points()[segments[i].a]), place_words(domain_.points()[segments[i].b]));
       });
 }
 
@@ -138,9 +136,8 @@ void DomainCheck::check_chain(const Chains::Chain& chain, const Domain::Segment&
     const std::int32_t s = chain.subsegments[i], from = chain.vertices[i];
     if (subsegments[s].marker != segment.marker)
       findings_.add(Flaw::kWrongMarker, [&] {
-        return fmt::format("subsegment {}, {}, has marker {}, expected {}", s,
-                           edge_words(names_, subsegments[s].a, subsegments[s].b), subsegments[s].marker,
-                           segment.marker);
+        return formatted("subsegment {}, {}, has marker {}, expected {}", s,
+                         edge_words(names_, subsegments[s].a, subsegments[s].b), subsegments[s].marker, segment.marker);
       });
     check_side(s, subsegments.left(s, from), left);
     check_side(s, subsegments.right(s, from), right);
@@ -176,7 +173,7 @@ void DomainCheck::check_straight(const Chains::Chain& chain) {
       continue;
     }
     findings_.add(Flaw::kOffSegment, [&] {
-      return fmt::format(
+      return formatted(
           "{} on {} is {:.3g} off its line (at most {:.3g}) and {:.17g} of {:.17g} along it, after {:.17g}",
           point_words(names_, chain.vertices[i]), chain_words(chain), static_cast<double>(off),
           static_cast<double>(tolerance), static_cast<double>(along), static_cast<double>(length),
@@ -189,8 +186,8 @@ void DomainCheck::check_straight(const Chains::Chain& chain) {
 void DomainCheck::check_area(double mesh_area) {
   if (std::fabs(mesh_area - domain_.area()) <= domain_.area_tolerance()) return;
   findings_.add(Flaw::kWrongArea, [&] {
-    return fmt::format("the triangles cover {:.17g}, the domain has {:.17g} (rounding explains {:.3g})", mesh_area,
-                       domain_.area(), domain_.area_tolerance());
+    return formatted("the triangles cover {:.17g}, the domain has {:.17g} (rounding explains {:.3g})", mesh_area,
+                     domain_.area(), domain_.area_tolerance());
   });
 }
 
@@ -199,8 +196,8 @@ void DomainCheck::check_euler(std::int64_t triangles, std::int64_t used_points, 
   const std::int64_t expected = 2 * used_points - boundary_edges - 2 * domain_.euler_number();
   if (triangles == expected) return;
   findings_.add(Flaw::kWrongEuler, [&] {
-    return fmt::format("{} triangles; {} vertices, {} boundary edges and Euler number {} of the domain require {}",
-                       triangles, used_points, boundary_edges, domain_.euler_number(), expected);
+    return formatted("{} triangles; {} vertices, {} boundary edges and Euler number {} of the domain require {}",
+                     triangles, used_points, boundary_edges, domain_.euler_number(), expected);
   });
 }
 

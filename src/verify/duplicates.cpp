@@ -1,7 +1,6 @@
 #include "verify/duplicates.hpp"
 
-#include <fmt/format.h>
-
+#include "base/formatted.hpp"
 #include "driftmesh/id_vector.hpp"
 
 namespace driftmesh {
@@ -13,7 +12,7 @@ void check_duplicates(const NamedMesh& mesh, const PointFilter& counts, const Po
     const std::int32_t first = index.add(v);
     if (first != v && (is_new(v) || is_new(first)))
       findings.add(Flaw::kDuplicatePoint, [&] {
-        return point_words(mesh, v) + fmt::format(" has the coordinates of point {}", mesh.number(first));
+        return point_words(mesh, v) + formatted(" has the coordinates of point {}", mesh.number(first));
       });
   }
 }

@@ -1,9 +1,8 @@
 #include "verify/edge_check.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
+#include "base/formatted.hpp"
 #include "geometry/predicates.hpp"
 
 namespace driftmesh {
@@ -46,10 +45,10 @@ void EdgeCheck::report(std::int32_t u, std::int32_t v, const Side& left, const S
   const double inside = incircle(at(u), at(v), at(left.apex), at(right.apex));
   findings_.add(Flaw::kNotDelaunay, [&] {
     return edge_words(names_, u, v) +
-           fmt::format(" between {} and {}: ", triangle_words(names_, left.triangle),
-                       triangle_words(names_, right.triangle)) +
-           fmt::format("{} lies inside the circumcircle of the first (incircle {}, expected <= 0)",
-                       point_words(names_, right.apex), inside);
+           formatted(" between {} and {}: ", triangle_words(names_, left.triangle),
+                     triangle_words(names_, right.triangle)) +
+           formatted("{} lies inside the circumcircle of the first (incircle {}, expected <= 0)",
+                     point_words(names_, right.apex), inside);
   });
 }
 

@@ -1,11 +1,10 @@
 #include "verify/judge.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "base/formatted.hpp"
 #include "driftmesh/id_vector.hpp"
 #include "verify/extended.hpp"
 #include "verify/words.hpp"
@@ -24,9 +23,9 @@ std::string area_words(const Suspect& suspect) {
   const auto area = static_cast<double>(cross_extended(a, b, c) / 2);
   const std::string triangle = triangle_words(suspect.place, suspect.numbers);
   if (suspect.miss == Suspect::Miss::kArea)
-    return triangle + fmt::format(" has area {:.9g}, at most {:.9g} is allowed", area, suspect.bound);
-  return triangle + fmt::format(" has area {:.9g}, but an edge of {:.9g} is asked for at {}", area, suspect.bound,
-                                place_words(suspect.at));
+    return triangle + formatted(" has area {:.9g}, at most {:.9g} is allowed", area, suspect.bound);
+  return triangle + formatted(" has area {:.9g}, but an edge of {:.9g} is asked for at {}", area, suspect.bound,
+                              place_words(suspect.at));
 }
 
 std::string angle_words(const Suspect& suspect, const ShortestEdge& edge, double min_angle) {
@@ -35,9 +34,9 @@ std::string angle_words(const Suspect& suspect, const ShortestEdge& edge, double
   const double angle =
       std::min({degrees_at(p[0], p[1], p[2]), degrees_at(p[1], p[2], p[0]), degrees_at(p[2], p[0], p[1])});
   return triangle_words(suspect.place, suspect.numbers) +
-         fmt::format(" has an angle of {:.6f} degrees at {}, circumradius / shortest edge {:.6f} (at most {:.6f})",
-                     angle, point_words(suspect.numbers[k], p[k]), static_cast<double>(edge.ratio),
-                     static_cast<double>(largest_ratio(min_angle)));
+         formatted(" has an angle of {:.6f} degrees at {}, circumradius / shortest edge {:.6f} (at most {:.6f})", angle,
+                   point_words(suspect.numbers[k], p[k]), static_cast<double>(edge.ratio),
+                   static_cast<double>(largest_ratio(min_angle)));
 }
 
 }  // namespace

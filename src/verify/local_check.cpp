@@ -1,9 +1,8 @@
 #include "verify/local_check.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
+#include "base/formatted.hpp"
 #include "driftmesh/id_vector.hpp"
 #include "geometry/predicates.hpp"
 #include "verify/words.hpp"
@@ -13,8 +12,7 @@ namespace {
 
 void check_length(std::size_t actual, std::size_t expected, const char* array, Findings& findings) {
   if (actual != expected)
-    findings.add(Flaw::kBadArray,
-                 [&] { return fmt::format("{} has {} entries, expected {}", array, actual, expected); });
+    findings.add(Flaw::kBadArray, [&] { return formatted("{} has {} entries, expected {}", array, actual, expected); });
 }
 
 }  // namespace
@@ -29,7 +27,7 @@ bool check_arrays(const NamedMesh& names, Findings& findings) {
   if (!mesh.ranks.empty()) check_length(mesh.ranks.size(), mesh.triangles.size(), "the array of ranks", findings);
   if (mesh.attributes_per_point < 0)
     findings.add(Flaw::kBadArray, [&] {
-      return fmt::format("points have {} attributes, expected at least 0", mesh.attributes_per_point);
+      return formatted("points have {} attributes, expected at least 0", mesh.attributes_per_point);
     });
   check_length(mesh.attributes.size(), n * std::max(0, mesh.attributes_per_point), "the array of point attributes",
                findings);
@@ -38,14 +36,14 @@ bool check_arrays(const NamedMesh& names, Findings& findings) {
     const auto& [a, b, c] = mesh.triangles[t];
     if (!valid(a) || !valid(b) || !valid(c) || a == b || b == c || c == a)
       findings.add(Flaw::kBadIndex, [&] {
-        return triangle_words(names, t) + fmt::format(": three different points below {} are expected", n);
+        return triangle_words(names, t) + formatted(": three different points below {} are expected", n);
       });
   }
   for (std::size_t s = 0; s < mesh.edges.size(); ++s) {
     const auto& [a, b, marker] = mesh.edges[s];
     if (!valid(a) || !valid(b) || a == b)
       findings.add(Flaw::kBadIndex, [&, u = a, v = b] {
-        return fmt::format("subsegment {} ({} {}): two different points below {} are expected", s, u, v, n);
+        return formatted("subsegment {} ({} {}): two different points below {} are expected", s, u, v, n);
       });
   }
   return findings.empty();
@@ -81,7 +79,7 @@ void check_subsegments(const NamedMesh& mesh, const Subsegments& subsegments, Fi
   for (const std::int32_t s : subsegments.ids()) {
     const auto& [a, b, marker] = subsegments[s];
     const auto say = [&, u = a, v = b](const char* what) {
-      return [&, u, v, what] { return fmt::format("subsegment {}, {}, {}", s, edge_words(mesh, u, v), what); };
+      return [&, u, v, what] { return formatted("subsegment {}, {}, {}", s, edge_words(mesh, u, v), what); };
     };
     if (subsegments.find(a, b) != s)
       findings.add(Flaw::kDuplicateSubsegment, say("is listed before"));
@@ -98,7 +96,7 @@ void check_orientations(const NamedMesh& names, std::size_t begin, std::size_t e
     if (!(orientation > 0))
       findings.add(Flaw::kNotCounterclockwise, [&] {
         return triangle_words(names, t) +
-               fmt::format(" is {}: orientation {}, expected > 0", orientation < 0 ? "inverted" : "flat", orientation);
+               formatted(" is {}: orientation {}, expected > 0", orientation < 0 ? "inverted" : "flat", orientation);
       });
   }
 }
@@ -122,7 +120,7 @@ void FanCheck::check_hub(std::int32_t hub) {
   const Fan::Shape shape = fan_.shape();
   if (shape.rings > (shape.sectors == 0 ? 1 : 0))
     findings_.add(Flaw::kTangledVertex, [&] {
-      return point_words(names_, hub) + fmt::format(
+      return point_words(names_, hub) + formatted(
                                             ": its triangles form {} closed rings and {} open sectors, expected "
                                             "one ring or only sectors",
                                             shape.rings, shape.sectors);

@@ -1,8 +1,8 @@
 #include "verify/piece_numbers.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+
+#include "base/formatted.hpp"
 
 namespace driftmesh {
 
@@ -28,8 +28,8 @@ PieceNumbers::PieceNumbers(std::span<const PieceReport> pieces) {
 void PieceNumbers::check_largest(Findings& findings) const {
   if (too_large_)
     findings.add(Flaw::kPiecesDisagree, [&] {
-      return fmt::format("numbers go up to {}, but all pieces together have {} points: pieces are missing",
-                         all_.largest(), all_.count());
+      return formatted("numbers go up to {}, but all pieces together have {} points: pieces are missing",
+                       all_.largest(), all_.count());
     });
 }
 
@@ -38,7 +38,7 @@ void PieceNumbers::check_gaps(Findings& findings) const {
   std::int64_t end = 0;
   for (const NumberRuns::Run& run : all_.runs()) {
     for (std::int64_t n = end; n < run.first; ++n)
-      findings.add(Flaw::kPiecesDisagree, [&] { return fmt::format("point {} is in no piece", n); });
+      findings.add(Flaw::kPiecesDisagree, [&] { return formatted("point {} is in no piece", n); });
     end = std::max(end, run.end);
   }
 }

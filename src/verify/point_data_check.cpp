@@ -1,13 +1,12 @@
 #include "verify/point_data_check.hpp"
 
-#include <fmt/format.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "base/formatted.hpp"
 #include "driftmesh/id_vector.hpp"
 #include "verify/words.hpp"
 
@@ -43,7 +42,7 @@ void check_markers(const NamedMesh& names, const Pslg& input, const PointIndex& 
     const std::int32_t actual = mesh.point_markers[v], expected = input.point_markers[i];
     if (expected == 0 && subsegments.give(v, actual)) continue;
     findings.add(Flaw::kWrongPointMarker, [&, vertex = v] {
-      return fmt::format("{} has marker {}, expected {}", point_words(names, vertex), actual, expected);
+      return formatted("{} has marker {}, expected {}", point_words(names, vertex), actual, expected);
     });
   }
 }
@@ -52,8 +51,7 @@ void check_attributes(const NamedMesh& names, const Pslg& input, const PointInde
   const Mesh& mesh = names.mesh();
   if (mesh.attributes_per_point != input.attributes_per_point) {
     findings.add(Flaw::kWrongAttribute, [&] {
-      return fmt::format("points have {} attributes, expected {}", mesh.attributes_per_point,
-                         input.attributes_per_point);
+      return formatted("points have {} attributes, expected {}", mesh.attributes_per_point, input.attributes_per_point);
     });
     return;
   }
@@ -64,7 +62,7 @@ void check_attributes(const NamedMesh& names, const Pslg& input, const PointInde
       const double actual = mesh.attributes[to_index(v) * width + k], expected = input.attributes[i * width + k];
       if (actual != expected)
         findings.add(Flaw::kWrongAttribute, [&] {
-          return fmt::format("{} has {} as attribute {}, expected {}", point_words(names, v), actual, k + 1, expected);
+          return formatted("{} has {} as attribute {}, expected {}", point_words(names, v), actual, k + 1, expected);
         });
     }
   }

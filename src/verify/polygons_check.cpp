@@ -1,13 +1,12 @@
 #include "verify/polygons_check.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
 #include <utility>
 
+#include "base/formatted.hpp"
 #include "driftmesh/id_vector.hpp"
 #include "verify/arrangement.hpp"
 #include "verify/cut_rings.hpp"
@@ -35,29 +34,29 @@ class PolygonsCheck {
     if (given_face == Arrangement::kOnBoundary) return;
     const auto say = [&](const std::string& what) {
       findings_.add(Flaw::kWrongPolygons, [&] {
-        return fmt::format("the face of area {:.9g} around {} {}", domain_.area(face), place_words(place), what);
+        return formatted("the face of area {:.9g} around {} {}", domain_.area(face), place_words(place), what);
       });
     };
     if (!given_.inside(given_face))
       say("lies in no polygon of the input");
     else if (const double actual = attribute_of(domain_, face), expected = attribute_of(given_, given_face);
              actual != expected)
-      say(fmt::format("belongs to region {}, by the polygons of the input to {}", actual, expected));
+      say(formatted("belongs to region {}, by the polygons of the input to {}", actual, expected));
   }
 
   void check_areas() {
     check_area("the domain", domain_.area(), given_.area());
     std::map<double, double> actual = domain_.areas_of_regions(), expected = given_.areas_of_regions();
     for (const auto& [region, area] : expected) actual.try_emplace(region, 0);
-    for (const auto& [region, area] : actual) check_area(fmt::format("region {}", region), area, expected[region]);
+    for (const auto& [region, area] : actual) check_area(formatted("region {}", region), area, expected[region]);
   }
 
  private:
   void check_area(const std::string& what, double actual, double expected) {
     if (std::fabs(actual - expected) <= tolerance_) return;
     findings_.add(Flaw::kWrongPolygons, [&] {
-      return fmt::format("the area of {} is {:.17g}, by the polygons of the input {:.17g} ({} explains {:.3g})", what,
-                         actual, expected, explains_, tolerance_);
+      return formatted("the area of {} is {:.17g}, by the polygons of the input {:.17g} ({} explains {:.3g})", what,
+                       actual, expected, explains_, tolerance_);
     });
   }
 

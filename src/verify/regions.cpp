@@ -1,10 +1,9 @@
 #include "verify/regions.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <tuple>
 
+#include "base/formatted.hpp"
 #include "driftmesh/id_vector.hpp"
 
 namespace driftmesh {
@@ -47,7 +46,7 @@ void check_regions(const NamedMesh& names, const Domain& domain, const std::vect
     const double expected = region != nullptr ? region->attribute : 0, actual = names.mesh().regions[t];
     if (actual != expected)
       findings.add(Flaw::kWrongRegion, [&] {
-        return fmt::format("{} has region attribute {}, expected {}", triangle_words(names, t), actual, expected);
+        return formatted("{} has region attribute {}, expected {}", triangle_words(names, t), actual, expected);
       });
   }
 }

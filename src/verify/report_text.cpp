@@ -1,15 +1,14 @@
 #include "verify/report_text.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+
+#include "base/formatted.hpp"
 
 namespace driftmesh {
 namespace {
 
-using Text = std::back_insert_iterator<std::string>;
+using Text = std::string&;
 
 /// 1234567 -> "1,234,567"
 std::string grouped(std::uint64_t n) {
@@ -23,32 +22,32 @@ std::string grouped(std::uint64_t n) {
 }
 
 void add_interfaces(const VerifyReport& report, Text out) {
-  if (report.pieces != 0) fmt::format_to(out, "pieces         {}\n", grouped(report.pieces));
+  if (report.pieces != 0) append_formatted(out, "pieces         {}\n", grouped(report.pieces));
   if (report.subdomains == 0) return;
-  fmt::format_to(out, "subdomains     {}, {} interfaces between them of {} edges, {} of these between ranks\n",
-                 grouped(report.subdomains), grouped(report.interfaces), grouped(report.interface_edges),
-                 grouped(report.rank_interface_edges));
+  append_formatted(out, "subdomains     {}, {} interfaces between them of {} edges, {} of these between ranks\n",
+                   grouped(report.subdomains), grouped(report.interfaces), grouped(report.interface_edges),
+                   grouped(report.rank_interface_edges));
   if (report.interface_edges_not_delaunay != 0)
-    fmt::format_to(out, "               {} of them are Delaunay only because interfaces count as constrained\n",
-                   grouped(report.interface_edges_not_delaunay));
+    append_formatted(out, "               {} of them are Delaunay only because interfaces count as constrained\n",
+                     grouped(report.interface_edges_not_delaunay));
 }
 
 void add_counts(const VerifyReport& report, Text out) {
   add_interfaces(report, out);
-  fmt::format_to(out, "points         {}", grouped(report.points));
-  if (report.unused_points != 0) fmt::format_to(out, ", {} of them in no triangle", grouped(report.unused_points));
-  fmt::format_to(out, "\ntriangles      {}\nsubsegments    {}, {} on the boundary\n", grouped(report.triangles),
-                 grouped(report.subsegments), grouped(report.boundary_edges));
+  append_formatted(out, "points         {}", grouped(report.points));
+  if (report.unused_points != 0) append_formatted(out, ", {} of them in no triangle", grouped(report.unused_points));
+  append_formatted(out, "\ntriangles      {}\nsubsegments    {}, {} on the boundary\n", grouped(report.triangles),
+                   grouped(report.subsegments), grouped(report.boundary_edges));
   if (!report.subsegments_listed)
-    fmt::format_to(out, "               the file lists no subsegments; the boundary was taken as constrained\n");
-  if (!report.regions_listed) fmt::format_to(out, "regions        not listed by the mesh and not checked\n");
+    append_formatted(out, "               the file lists no subsegments; the boundary was taken as constrained\n");
+  if (!report.regions_listed) append_formatted(out, "regions        not listed by the mesh and not checked\n");
   if (!report.polygons_judged)
-    fmt::format_to(out, "polygons       cross so closely that they are checked as repaired only\n");
-  fmt::format_to(out, "area           {:.17g}", report.area);
-  if (report.against_input) fmt::format_to(out, ", of the input {:.17g}", report.input_area);
-  fmt::format_to(out, "\nareas          {:.6g} to {:.6g}\nangles         {:.4f} to {:.4f} degrees\n",
-                 report.quality.smallest_area, report.quality.largest_area, report.quality.smallest_angle,
-                 report.quality.largest_angle);
+    append_formatted(out, "polygons       cross so closely that they are checked as repaired only\n");
+  append_formatted(out, "area           {:.17g}", report.area);
+  if (report.against_input) append_formatted(out, ", of the input {:.17g}", report.input_area);
+  append_formatted(out, "\nareas          {:.6g} to {:.6g}\nangles         {:.4f} to {:.4f} degrees\n",
+                   report.quality.smallest_area, report.quality.largest_area, report.quality.smallest_angle,
+                   report.quality.largest_angle);
 }
 
 void add_histogram(const Quality& quality, Text out) {
@@ -57,28 +56,28 @@ void add_histogram(const Quality& quality, Text out) {
   const auto most = static_cast<double>(std::max<std::uint64_t>(1, *std::max_element(tens.begin(), tens.end())));
   for (std::size_t i = 0; i < tens.size(); ++i) {
     const auto length = static_cast<std::size_t>(std::ceil(kBarLength * static_cast<double>(tens[i]) / most));
-    fmt::format_to(out, "  {:>3} - {:>3}  {:>13}  {}\n", 10 * i, 10 * i + 10, grouped(tens[i]),
-                   std::string(length, '#'));
+    append_formatted(out, "  {:>3} - {:>3}  {:>13}  {}\n", 10 * i, 10 * i + 10, grouped(tens[i]),
+                     std::string(length, '#'));
   }
 }
 
 void add_list(const std::vector<std::string>& messages, std::uint64_t count, Text out) {
-  for (const std::string& message : messages) fmt::format_to(out, "    {}\n", message);
+  for (const std::string& message : messages) append_formatted(out, "    {}\n", message);
   if (count > messages.size() && !messages.empty())
-    fmt::format_to(out, "    and {} more\n", grouped(count - messages.size()));
+    append_formatted(out, "    and {} more\n", grouped(count - messages.size()));
 }
 
 void add_exceptions(const Quality& quality, double min_angle, Text out) {
   if (quality.exception_count() == 0) return;
-  fmt::format_to(out, "exceptions     {} triangles that miss a bound, as the input explains\n",
-                 grouped(quality.exception_count()));
+  append_formatted(out, "exceptions     {} triangles that miss a bound, as the input explains\n",
+                   grouped(quality.exception_count()));
   for (std::size_t degree = 0; degree < 180 && static_cast<double>(degree) < min_angle; ++degree)
     if (quality.angles[degree] != 0)
-      fmt::format_to(out, "  {:>3} - {:>3}  {:>13}\n", degree, degree + 1, grouped(quality.angles[degree]));
+      append_formatted(out, "  {:>3} - {:>3}  {:>13}\n", degree, degree + 1, grouped(quality.angles[degree]));
   for (const ExceptionReason reason : ids_of(quality.exceptions)) {
     const auto& list = quality.exceptions[reason];
     if (list.count == 0) continue;
-    fmt::format_to(out, "  {}: {}\n", reason_name(reason), grouped(list.count));
+    append_formatted(out, "  {}: {}\n", reason_name(reason), grouped(list.count));
     add_list(list.messages, list.count, out);
   }
 }
@@ -86,19 +85,19 @@ void add_exceptions(const Quality& quality, double min_angle, Text out) {
 void add_flaws(const Findings& findings, Text out) {
   for (const Flaw flaw : first_ids<Flaw>(kFlawCount)) {
     if (findings.count(flaw) == 0) continue;
-    fmt::format_to(out, "{}: {}\n", flaw_name(flaw), grouped(findings.count(flaw)));
+    append_formatted(out, "{}: {}\n", flaw_name(flaw), grouped(findings.count(flaw)));
     add_list(findings.messages(flaw), findings.count(flaw), out);
   }
 }
 
 std::string what_was_checked(const VerifyReport& report, const VerifyOptions& options) {
   std::string text = report.subsegments_listed ? "constrained Delaunay" : "Delaunay inside its boundary";
-  if (report.interfaces != 0) text += fmt::format(", conforming at {} interfaces", grouped(report.interfaces));
+  if (report.interfaces != 0) text += formatted(", conforming at {} interfaces", grouped(report.interfaces));
   if (report.against_input) text += ", covers the input";
-  if (options.min_angle > 0) text += fmt::format(", angles of at least {} degrees", options.min_angle);
+  if (options.min_angle > 0) text += formatted(", angles of at least {} degrees", options.min_angle);
   if (const auto n = report.quality.exception_count(); n != 0)
-    text += fmt::format(" except for {} triangles that the input explains", grouped(n));
-  if (options.plain.area > 0) text += fmt::format(", areas of at most {}", options.plain.area);
+    text += formatted(" except for {} triangles that the input explains", grouped(n));
+  if (options.plain.area > 0) text += formatted(", areas of at most {}", options.plain.area);
   if (options.size != nullptr) text += ", sizes asked for";
   return text;
 }
@@ -107,7 +106,7 @@ std::string what_was_checked(const VerifyReport& report, const VerifyOptions& op
 
 std::string report_text(const VerifyReport& report, const VerifyOptions& options) {
   std::string text;
-  const auto out = std::back_inserter(text);
+  std::string& out = text;
   add_counts(report, out);
   add_histogram(report.quality, out);
   add_exceptions(report.quality, options.min_angle, out);
@@ -121,7 +120,7 @@ std::string verdict_text(const VerifyReport& report, const VerifyOptions& option
   const char* separator = "";
   for (const Flaw flaw : first_ids<Flaw>(kFlawCount)) {
     if (report.findings.count(flaw) == 0) continue;
-    text += fmt::format("{}{} ({})", separator, flaw_name(flaw), grouped(report.findings.count(flaw)));
+    text += formatted("{}{} ({})", separator, flaw_name(flaw), grouped(report.findings.count(flaw)));
     separator = ", ";
   }
   return text;

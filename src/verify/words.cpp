@@ -1,12 +1,12 @@
 #include "verify/words.hpp"
 
-#include <fmt/format.h>
+#include "base/formatted.hpp"
 
 namespace driftmesh {
 
 std::string triangle_words(const TrianglePlace& place, const std::array<std::int64_t, 3>& corners) {
-  const std::string piece = place.piece == kNone ? "" : fmt::format(" of piece {}", place.piece);
-  return fmt::format("triangle {}{} ({} {} {})", place.triangle, piece, corners[0], corners[1], corners[2]);
+  const std::string piece = place.piece == kNone ? "" : formatted(" of piece {}", place.piece);
+  return formatted("triangle {}{} ({} {} {})", place.triangle, piece, corners[0], corners[1], corners[2]);
 }
 
 std::string triangle_words(const NamedMesh& mesh, std::size_t triangle) {
@@ -14,7 +14,7 @@ std::string triangle_words(const NamedMesh& mesh, std::size_t triangle) {
 }
 
 std::string point_words(std::int64_t number, const Point& at) {
-  return fmt::format("point {} at {}", number, place_words(at));
+  return formatted("point {} at {}", number, place_words(at));
 }
 
 std::string point_words(const NamedMesh& mesh, std::int32_t point) {
@@ -23,12 +23,12 @@ std::string point_words(const NamedMesh& mesh, std::int32_t point) {
 
 std::string edge_words(const NamedMesh& mesh, std::int32_t u, std::int32_t v) {
   const std::vector<Point>& points = mesh.mesh().points;
-  return fmt::format("edge {}-{} from {} to {}", mesh.number(u), mesh.number(v), place_words(points[u]),
-                     place_words(points[v]));
+  return formatted("edge {}-{} from {} to {}", mesh.number(u), mesh.number(v), place_words(points[u]),
+                   place_words(points[v]));
 }
 
 std::string place_words(const Point& p) {
-  return fmt::format("({}, {})", p.x, p.y);
+  return formatted("({}, {})", p.x, p.y);
 }
 
 }  // namespace driftmesh

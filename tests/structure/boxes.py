@@ -8,12 +8,12 @@ import re
 TOPS = ("include", "src", "protocol", "migration", "balancer", "python")
 INCLUDE_ROOTS = ("src", ".", "include")
 
-SECTIONS = ("SOURCES", "DEPENDS", "LIBS")
+SECTIONS = ("SOURCES", "NEED", "ELSE", "DEPENDS", "LIBS")
 
 
 @dataclasses.dataclass
 class Box:
-    """One driftmesh_library(name SOURCES ... DEPENDS ... LIBS ...), which is the folder that declares it."""
+    """One driftmesh_library(name SOURCES ... NEED lib ... ELSE ... DEPENDS ... LIBS ...), which is the folder that declares it."""
 
     name: str
     folder: pathlib.Path
@@ -34,7 +34,8 @@ def declared_boxes(root):
                     section = word
                 elif section:
                     sections[section].append(word)
-            boxes.append(Box(name, path.parent, *sections.values()))
+            sources = sections["SOURCES"] + sections["NEED"][1:] + sections["ELSE"]
+            boxes.append(Box(name, path.parent, sources, sections["DEPENDS"], sections["LIBS"]))
     return boxes
 
 

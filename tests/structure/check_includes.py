@@ -21,7 +21,6 @@ from boxes import INCLUDE_ROOTS, TOPS, closure, cycle_in, declared_boxes, graph,
 
 # Outside libraries: the names of their headers, and the boxes that may use them (None: any that says so).
 LIBRARIES = {
-    "boost_serialization": (r"boost/(archive|serialization)/.*", ["migration"]),
     "cairo": (r"cairo.*\.h", ["picture"]),
     "cli11": (r"CLI/.*", ["cli"]),
     "fmt": (r"fmt/.*", None),
@@ -29,11 +28,11 @@ LIBRARIES = {
     "hdf5": (r"hdf5\.h", ["hdf5", "io"]),
     "json": (r"nlohmann/.*", None),
     "metis": (r"metis\.h", ["decompose"]),
-    "mpi": (r"mpi\.h", ["api_mpi", "partition_zoltan", "public_mpi", "python", "transport_mpi"]),  # Zoltan's own header needs it
-    "pybind11": (r"pybind11/.*", ["python"]),
+    "mpi": (r"mpi\.h", ["api_mpi", "partition_zoltan", "public_mpi", "python_ranks", "transport_mpi"]),  # Zoltan's own header needs it
+    "pybind11": (r"pybind11/.*", ["python", "python_ranks"]),
     "threads": (r"thread|future", None),
     "yaml": (r"yaml-cpp/.*", ["config"]),
-    "zlib": (r"zlib\.h", ["io", "report"]),
+    "zlib": (r"zlib\.h", ["report", "zlib"]),
     "zoltan": (r"zoltan.*\.h", ["partition_zoltan"]),
 }
 

@@ -157,7 +157,7 @@ class BrokenProject(unittest.TestCase):
     def test_library_in_a_box_that_must_not_have_it(self):
         self.include("src/cluster/cluster_run.cpp", "<mpi.h>")
         self.declare("cluster", "LIBS", "mpi")
-        self.expect("cluster: must not use mpi, which belongs to api_mpi and partition_zoltan and public_mpi and python and transport_mpi")
+        self.expect("cluster: must not use mpi, which belongs to api_mpi and partition_zoltan and public_mpi and python_ranks and transport_mpi")
 
     def test_unknown_library(self):
         for header in ("<CGAL/Bbox_2.h>", "<boost/multiprecision/cpp_int.hpp>", "<omp.h>", "gone.hpp"):

@@ -3,7 +3,8 @@
 
 C++ has one definition of each function and type in a program ("one definition rule"), and nobody is told if there are two: where
 one of them is inline, the linker keeps one for all callers, which one depends on what the compiler had inlined. What is defined in
-unnamed namespaces or in classes, and templates, are left out.
+unnamed namespaces or in classes, and templates, are left out, and so is what stands in for files where a library is absent
+(NAME_without_LIBRARY.cpp): one program has only one of the two.
 
 usage: check_twins.py PROJECT
 """
@@ -55,7 +56,7 @@ def definitions(text):
 def problems(project):
     project, files = pathlib.Path(project), collections.defaultdict(set)
     for folder in FOLDERS:
-        for path in sorted((project / folder).rglob("*.[ch]pp")):
+        for path in sorted(path for path in (project / folder).rglob("*.[ch]pp") if "_without_" not in path.name):
             for name in definitions(path.read_text()):
                 files[name].add(path.relative_to(project).as_posix())
     return [f"{name} is defined in {' and '.join(sorted(where))}: give one another name, or put it into an unnamed namespace"

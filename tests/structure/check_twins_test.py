@@ -39,6 +39,15 @@ class CheckTwins(unittest.TestCase):
         self.assertEqual(self.problems("struct A { struct Part; };", "struct A::Part { int a; };\nint A::f() { return 1; }"), [])
         self.assertEqual(self.problems("struct A;\nint f();", "struct A { int a; };\nint f() { return 1; }"), [])
 
+    def test_leaves_what_stands_in_for_a_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            source = pathlib.Path(folder, "src")
+            source.mkdir()
+            for name, twins in (("first_without_that.cpp", 0), ("second.cpp", 1)):
+                (source / "first.cpp").write_text("int f() { return 1; }\n")
+                (source / name).write_text("int f() { return 2; }\n")
+                self.assertEqual(len(check_twins.problems(folder)[0]), twins)
+
     def test_leaves_functions_that_take_functions(self):
         self.assertEqual(self.problems("std::function<void(int)> f() { return {}; }", "std::function<void(int)> g() { return {}; }"), [])
 

@@ -11,11 +11,11 @@
 #include <utility>
 
 #include "api/mpi/fail_together.hpp"
-#include "arrays.hpp"
-#include "classes.hpp"
 #include "driftmesh/error.hpp"
-#include "options.hpp"
-#include "table.hpp"
+#include "python/arrays.hpp"
+#include "python/options.hpp"
+#include "python/ranks/ranks.hpp"
+#include "python/table.hpp"
 
 namespace driftmesh::python {
 namespace {

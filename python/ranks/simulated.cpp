@@ -3,10 +3,10 @@
 #include <pybind11/stl.h>
 
 #include "api/simulated/cluster_request.hpp"
-#include "arrays.hpp"
-#include "classes.hpp"
-#include "options.hpp"
-#include "table.hpp"
+#include "python/arrays.hpp"
+#include "python/options.hpp"
+#include "python/ranks/ranks.hpp"
+#include "python/table.hpp"
 
 namespace driftmesh::python {
 namespace {

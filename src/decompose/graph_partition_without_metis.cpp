@@ -1,0 +1,18 @@
+#include "decompose/graph_partition.hpp"
+#include "driftmesh/error.hpp"
+
+namespace driftmesh {
+
+bool can_partition_graphs() {
+  return false;
+}
+
+IdVector<std::int32_t, std::int32_t> partition_graph(const WeightedGraph& /*graph*/,
+                                                     const std::vector<double>& /*shares*/, PartitionMethod /*method*/,
+                                                     std::int32_t /*seed*/) {
+  throw Error(
+      "mapping by the graph of subdomains takes METIS, which this driftmesh was built without; map by another method, "
+      "or build it with -DDRIFTMESH_METIS=ON");
+}
+
+}  // namespace driftmesh
