@@ -12,14 +12,15 @@ import re
 import subprocess
 import sys
 
-RECIPES = ("Containerfile", ".github/workflows/tests.yml", "examples/workflow.yml")
+RECIPES = ("Containerfile", ".github/workflows/tests.yml", ".github/workflows/wheels.yml", "examples/workflow.yml", "packaging/conda/recipe.yaml",
+           "packaging/debian/rules", "packaging/spack/package.py", "packaging/wheel/build.sh", "packaging/wheel/try.sh")
 
 
 def faults_of(name, text, root):
     presets = {preset["name"] for preset in json.loads((root / "CMakePresets.json").read_text())["configurePresets"]}
-    options = set(re.findall(r"option\((DRIFTMESH_\w+)", "".join(path.read_text() for path in
-                                                                  [root / "CMakeLists.txt", *(root / "cmake").glob("*.cmake")])))
-    for script in re.findall(r"\./(scripts/[\w.-]+)", text):
+    options = set(re.findall(r"(?:option|set)\((DRIFTMESH_\w+)", "".join(path.read_text() for path in
+                                                                  [root / "CMakeLists.txt", root / "python/CMakeLists.txt", *(root / "cmake").glob("*.cmake")])))
+    for script in re.findall(r"(?:\./|\b)((?:scripts|packaging/\w+)/[\w.-]+\.(?:sh|py))", text):
         if not (root / script).is_file():
             yield f"{name}: {script} does not exist"
     for groups in re.findall(r"setup\.sh((?: [a-z]+)*)", text):
@@ -31,7 +32,7 @@ def faults_of(name, text, root):
     for preset in re.findall(r"--preset (\w+)", text):
         if preset not in presets:
             yield f"{name}: there is no preset {preset}"
-    for option in re.findall(r"-D(DRIFTMESH_\w+)=", text):
+    for option in re.findall(r"(?:-D|define\(\"|define_from_variant\(\"|[;=\"])(DRIFTMESH_[A-Z_0-9]+)(?:=|\")", text):
         if option not in options:
             yield f"{name}: there is no option {option}"
 

@@ -1,13 +1,17 @@
 #!/usr/bin/env python3
 """A build with nothing but the standard library: with -DDRIFTMESH_MINIMAL=ON CMake looks for no other package but pybind11, the
-library and the Python package are built, mesh and check, and refuse by name what takes a library.
+library and the Python package are built, mesh and check, and refuse by name what takes a library. pip builds the same of an sdist, and
+its wheel needs nothing but the C library.
 
 usage: minimal_test.py SOURCE_FOLDER BUILD_FOLDER COMPILER GENERATOR PYTHON [--configure]      --configure: only the first
 """
 
 import pathlib
+import re
+import shutil
 import sys
 import unittest
+import zipfile
 
 from command import ENVIRONMENT, run
 
@@ -68,13 +72,34 @@ class Minimal(unittest.TestCase):
         folder = pathlib.Path(BUILD) / "built"
         self.configure(folder)
         run("cmake", "--build", folder, "-j", "2")
-        work = folder / "work"
-        work.mkdir(exist_ok=True)
-        said = run(PYTHON, "-c", PROGRAM, cwd=work, env=ENVIRONMENT | {"PYTHONPATH": str(folder / "python")})
-        self.assertIn("all refused by name", said)
+        self.check_package(folder / "python", folder / "work")
         needed = run("ldd", next((folder / "python" / "driftmesh").glob("_native*")))
         for library in ("libmpi", "libhdf5", "libcairo", "libmetis", "libz.", "libfmt", "libboost"):
             self.assertNotIn(library, needed)
+
+    def check_package(self, package, work):
+        work.mkdir(exist_ok=True)
+        self.assertIn("all refused by name", run(PYTHON, "-c", PROGRAM, cwd=work, env=ENVIRONMENT | {"PYTHONPATH": str(package)}))
+
+    @unittest.skipIf(ONLY_CONFIGURE, "this takes minutes")
+    def test_pip_builds_from_an_sdist(self):
+        folder = pathlib.Path(BUILD) / "pip"
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        made = "import sys; sys.path.insert(0, sys.argv[1]); import driftmesh_backend; print(driftmesh_backend.build_sdist(sys.argv[2]))"
+        sdist = folder / run(PYTHON, "-B", "-c", made, f"{SOURCE}/python/backend", folder).strip()
+        define = ";".join(["CMAKE_MODULE_LINKER_FLAGS=-static-libstdc++ -static-libgcc", f"CMAKE_CXX_COMPILER={COMPILER}", "DRIFTMESH_WERROR=ON",
+                           *(f"DRIFTMESH_{part}=OFF" for part in ("CAIRO", "HDF5", "JSON", "METIS", "ZLIB"))])
+        run(PYTHON, "-m", "pip", "wheel", "--no-deps", "--no-index", "--no-build-isolation", "--wheel-dir", folder, "--config-settings",
+            f"define={define}", sdist)
+        wheel = next(folder.glob("*.whl"))
+        self.assertRegex(wheel.name, r"^driftmesh-[\d.]+-cp3\d+-cp3\d+-manylinux_2_\d+_\w+\.whl$")
+        self.assertLess(wheel.stat().st_size, 10e6)
+        with zipfile.ZipFile(wheel) as content:
+            content.extractall(folder / "site")
+        needed = re.findall(r"(\S+) =>", run("ldd", next((folder / "site" / "driftmesh").glob("_native*"))))
+        self.assertEqual({name.split(".")[0] for name in needed} - {"libc", "libm", "libdl", "librt", "libpthread"}, set())
+        self.check_package(folder / "site", folder / "work")
 
 
 if __name__ == "__main__":

@@ -40,7 +40,7 @@ class Wheel(unittest.TestCase):
         self.assertEqual(said.split()[0], VERSION)
         self.assertIn(str(self.folder / "venv"), said.split()[1])
         files = run(python, "-m", "pip", "show", "--files", "driftmesh")
-        for name in ("driftmesh/__init__.pyi", "driftmesh/py.typed", "driftmesh/_native.", "dist-info/LICENSE"):
+        for name in ("driftmesh/__init__.pyi", "driftmesh/py.typed", "driftmesh/_native.", "driftmesh/_ranks.", "dist-info/LICENSE"):
             self.assertIn(name, files)
         self.assertIn("Requires: numpy", files)
         run(python, "-m", "pip", "uninstall", "-y", "driftmesh")
