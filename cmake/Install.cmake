@@ -34,7 +34,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/driftmeshConfig.cmake ${CMAKE_CURRENT_
 
 # A shared library finds by itself what it needs; who links the static one has to name it.
 set(pc_needs)
-foreach(need IN ITEMS HDF5:hdf5_serial METIS:metis ZLIB:z)
+foreach(need IN ITEMS BOOST_SERIALIZATION:boost_serialization HDF5:hdf5_serial METIS:metis ZLIB:z)
   string(REPLACE ":" ";" need ${need})
   list(GET need 0 part)
   list(GET need 1 library)
@@ -87,7 +87,7 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Makes, checks, converts and draws trian
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libdriftmesh-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "libhdf5-dev, libmetis-dev, zlib1g-dev")
+    "libboost-serialization-dev, libhdf5-dev, libmetis-dev, zlib1g-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libcairo2-dev, libopenmpi-dev, libtrilinos-zoltan-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "The library of driftmesh: headers, static libraries, CMake package.
  driftmesh::driftmesh makes meshes in one process, driftmesh::distributed on the

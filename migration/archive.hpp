@@ -6,6 +6,7 @@
 
 #include "driftmesh/error.hpp"
 #include "migration/packed_bytes.hpp"
+#include "migration/raw_archive.hpp"
 
 // Values and flat arrays as they are in memory. An array is its length in 8 bytes, then its elements.
 namespace driftmesh {
@@ -17,35 +18,35 @@ inline constexpr bool kIsFlat = std::is_arithmetic_v<T> || std::is_enum_v<T> || 
 /// Saves values and arrays; an ArchiveReader loads them in the same order.
 class ArchiveWriter {
  public:
-  explicit ArchiveWriter(SealedBytes& bytes) : bytes_(bytes) {}
+  explicit ArchiveWriter(SealedBytes& bytes) : raw_(bytes) {}
 
   template <class T>
   void value(const T& v) {
     static_assert(kIsFlat<T>);
-    bytes_.append(&v, sizeof v);
+    raw_.save(&v, sizeof v);
   }
   template <class Array>
   void array(const Array& values) {
     using T = std::remove_cvref_t<decltype(*values.data())>;
     static_assert(kIsFlat<T>);
     value(static_cast<std::uint64_t>(values.size()));
-    if (!values.empty()) bytes_.append(values.data(), values.size() * sizeof(T));
+    if (!values.empty()) raw_.save(values.data(), values.size() * sizeof(T));
   }
 
  private:
-  SealedBytes& bytes_;
+  RawWriter raw_;
 };
 
 /// Throws Error if there are fewer bytes than an array or value needs, before memory is allocated.
 class ArchiveReader {
  public:
-  explicit ArchiveReader(SealReader& bytes) : bytes_(bytes) {}
+  explicit ArchiveReader(SealReader& bytes) : bytes_(bytes), raw_(bytes) {}
 
   template <class T>
   void value(T& v) {
     static_assert(kIsFlat<T>);
     expect(1, sizeof v);
-    bytes_.read(&v, sizeof v);
+    raw_.load(&v, sizeof v);
   }
   template <class Array>
   void array(Array& values) {
@@ -58,7 +59,7 @@ class ArchiveReader {
       values.resize_uninitialized(count);
     else
       values.resize(count);
-    if (count != 0) bytes_.read(values.data(), count * sizeof(T));
+    if (count != 0) raw_.load(values.data(), count * sizeof(T));
   }
   [[nodiscard]] bool at_end() const { return bytes_.left() == 0; }
 
@@ -67,6 +68,7 @@ class ArchiveReader {
     if (count > bytes_.left() / size) throw Error("an array is longer than the bytes that are left");
   }
   SealReader& bytes_;
+  RawReader raw_;
 };
 
 }  // namespace driftmesh

@@ -9,7 +9,7 @@ packages_of() {
   case "$1" in
     build) echo g++ cmake ninja-build pkg-config libcli11-dev libfmt-dev libhdf5-dev nlohmann-json3-dev \
       libyaml-cpp-dev libcairo2-dev libmetis-dev libtrilinos-zoltan-dev \
-      libopenmpi-dev openmpi-bin zlib1g-dev ;;
+      libboost-serialization-dev libopenmpi-dev openmpi-bin zlib1g-dev ;;
     gis) echo libgdal-dev ;;  # 160 MB with what it needs; users of what is built with it need libgdal32 alone, if they read such files
     report) { command -v node && command -v npm; } >/dev/null || echo nodejs npm ;;  # others than Debian's will do
     python) echo pybind11-dev python3-dev python3-mpi4py python3-numpy ;;

@@ -24,6 +24,7 @@ class Driftmesh(CMakePackage):
     depends_on("pkgconfig", type="build")
     generator("ninja")
 
+    depends_on("boost+serialization")
     depends_on("cairo+png+pdf+svg")
     depends_on("hdf5~mpi")
     depends_on("metis@5:~int64")

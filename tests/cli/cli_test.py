@@ -836,7 +836,7 @@ class Mesh(Cli):
     def test_the_version(self):
         said = self.succeed("--version")
         self.assertRegex(said, r"^driftmesh \d+\.\d+\.\d+\ncompiler: \w+ \d+\.")
-        for library in ("Open MPI v", "Zoltan ", "METIS ", "yaml-cpp ", "cairo ", "fmt ",
+        for library in ("Open MPI v", "Zoltan ", "METIS ", "Boost ", "yaml-cpp ", "cairo ", "fmt ",
                         "nlohmann-json "):
             self.assertRegex(said.split("libraries: ")[1], rf"{library}\d+\.\d")
 

@@ -28,6 +28,7 @@ LIBRARIES = {
     "hdf5": (r"hdf5\.h", ["hdf5", "io"]),
     "json": (r"nlohmann/.*", None),
     "metis": (r"metis\.h", ["decompose"]),
+    "boost_serialization": (r"boost/(archive|serialization)/.*", ["migration"]),
     "mpi": (r"mpi\.h", ["api_mpi", "partition_zoltan", "public_mpi", "python_ranks", "transport_mpi"]),  # Zoltan's own header needs it
     "pybind11": (r"pybind11/.*", ["python", "python_ranks"]),
     "threads": (r"thread|future", None),
