@@ -34,16 +34,6 @@ autotools() {
     make -s -j"${JOBS:-1}" SUBDIRS="$folder" install)
 }
 
-with_cmake() {
-  local name=$1
-  shift
-  sources "$name"
-  cmake -S "$name" -B "$name/of-cmake" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_INSTALL_PREFIX="$prefix" -DCMAKE_INSTALL_LIBDIR=lib -DCMAKE_PREFIX_PATH="$prefix" \
-    -DBUILD_SHARED_LIBS=OFF -DCMAKE_POSITION_INDEPENDENT_CODE=ON "$@"
-  cmake --build "$name/of-cmake" -j "${JOBS:-1}"
-  cmake --install "$name/of-cmake"
-}
-
 sources zlib
 (cd zlib && ./configure --static --prefix="$prefix" && make -s libz.a && make -s install)
 sources libpng1.6
@@ -57,5 +47,5 @@ sources metis
 (cd metis && mkdir -p objects && cd objects && for source in ../GKlib/*.c ../libmetis/*.c; do
   gcc $CFLAGS -w -DNDEBUG -DNDEBUG2 -D_FILE_OFFSET_BITS=64 -DHAVE_EXECINFO_H -DHAVE_GETLINE -I../GKlib -I../include -I../libmetis -c "$source"
 done && ar rcs "$prefix/lib/libmetis.a" ./*.o && cp ../include/metis.h "$prefix/include/")
-with_cmake hdf5 -DHDF5_BUILD_TOOLS=OFF -DHDF5_BUILD_HL_LIB=OFF -DHDF5_BUILD_EXAMPLES=OFF -DBUILD_TESTING=OFF \
-  -DHDF5_ENABLE_Z_LIB_SUPPORT=ON -DHDF5_ENABLE_SZIP_SUPPORT=OFF -DHDF5_ENABLE_DEPRECATED_SYMBOLS=ON
+autotools hdf5 src --disable-hl --disable-tests --disable-tools --enable-build-mode=production --with-zlib="$prefix" --without-szlib \
+  --disable-ros3-vfd

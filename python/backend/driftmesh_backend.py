@@ -66,6 +66,13 @@ def place_of_pybind11():
     return [f"-Dpybind11_DIR={pybind11.get_cmake_dir()}"]
 
 
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    folder = pathlib.Path(metadata_directory) / f"driftmesh-{version()}.dist-info"
+    folder.mkdir()
+    (folder / "METADATA").write_text(make_wheel.metadata_of(SOURCE, version()))
+    return folder.name
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     defined = settings_of(config_settings, "define")
     names = {definition.partition("=")[0] for definition in defined}

@@ -21,7 +21,7 @@ enum class PartitionMethod {
   kDirect,     ///< k-way: better for more
 };
 
-/// Whether this build can, by METIS. Without, cuts join pieces one by one instead.
+/// Whether this build can, by METIS. Without, cuts join pieces one by one; mappings are in blocks.
 [[nodiscard]] bool can_partition_graphs();
 
 /// Partitions a graph into parts with the given shares of the weight (positive, on any scale, one for each part) and

@@ -11,8 +11,7 @@ IdVector<std::int32_t, std::int32_t> partition_graph(const WeightedGraph& /*grap
                                                      const std::vector<double>& /*shares*/, PartitionMethod /*method*/,
                                                      std::int32_t /*seed*/) {
   throw Error(
-      "mapping by the graph of subdomains takes METIS, which this driftmesh was built without; map by another method, "
-      "or build it with -DDRIFTMESH_METIS=ON");
+      "partitioning a graph takes METIS, which this driftmesh was built without; build it with -DDRIFTMESH_METIS=ON");
 }
 
 }  // namespace driftmesh

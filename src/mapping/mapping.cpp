@@ -85,6 +85,7 @@ Assignment map_to_all(const Decomposition& d, const MappingOptions& options) {
     case MappingMethod::kRoundRobin:
       return map_round_robin(d, options.ranks);
     case MappingMethod::kGraph:
+      if (!can_partition_graphs()) return map_blocks(weights_of(d, options.weight), speeds);
       break;
   }
   if (d.size() <= to_index(options.ranks))

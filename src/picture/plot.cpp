@@ -41,20 +41,6 @@ bool shows_any(const Mesh& mesh, const Box& box) {
 
 }  // namespace
 
-const PlotNames<PlotColor>& plot_colors() {
-  static const PlotNames<PlotColor> names = {{"auto", PlotColor::kAutomatic},      {"angle", PlotColor::kAngle},
-                                             {"area", PlotColor::kArea},           {"region", PlotColor::kRegion},
-                                             {"subdomain", PlotColor::kSubdomain}, {"rank", PlotColor::kRank},
-                                             {"none", PlotColor::kPlain}};
-  return names;
-}
-
-const PlotNames<PlotEdges>& plot_edges() {
-  static const PlotNames<PlotEdges> names = {
-      {"auto", PlotEdges::kAutomatic}, {"on", PlotEdges::kOn}, {"off", PlotEdges::kOff}};
-  return names;
-}
-
 void plot(const Mesh& mesh, const std::string& path, const PlotOptions& options) {
   if (options.box) require_shown(shows_any(mesh, shown_box(options, {})), mesh.points, options);
   if (options.color == PlotColor::kSubdomain) require_listed(!mesh.subdomains.empty(), options, "subdomain");

@@ -10,11 +10,11 @@ namespace {
 
 }  // namespace
 
-void plot_mesh(const Mesh& /*mesh*/, const std::string& path, const PlotOptions& /*options*/) {
+void plot(const Mesh& /*mesh*/, const std::string& path, const PlotOptions& /*options*/) {
   refuse_picture(path);
 }
 
-void plot_pslg(const Pslg& /*pslg*/, const std::string& path, const PlotOptions& /*options*/) {
+void plot(const Pslg& /*input*/, const std::string& path, const PlotOptions& /*options*/) {
   refuse_picture(path);
 }
 

@@ -46,8 +46,8 @@ TEST_CASE("files that take a library are refused by its name without it") {
   check_refused("zlib", "ZLIB", [&] { Unpacker{file}; });
   check_refused("nlohmann-json", "JSON", [&] { static_cast<void>(parse_geojson(file, "{}")); });
   check_refused("nlohmann-json", "JSON", [&] { static_cast<void>(read_mapping(file, 2, 2)); });
-  check_refused("cairo", "CAIRO", [&] { plot_mesh({}, file, {}); });
-  check_refused("cairo", "CAIRO", [&] { plot_pslg({}, file, {}); });
+  check_refused("cairo", "CAIRO", [&] { plot(Mesh{}, file); });
+  check_refused("cairo", "CAIRO", [&] { plot(Pslg{}, file); });
 }
 
 TEST_CASE("graphs are not partitioned without METIS, and whoever asks for it is told so") {
