@@ -156,6 +156,7 @@ Domain read_domain(const Request& request, const Given& given, Watch& watch) {
       timed(watch, "size", [&] { return size_of(request.sizing, domain.rasters.open, given.size, domain.pslg); });
   domain.size = std::move(source.field);
   domain.background = source.background;
+  domain.rules = given.rules;
   return domain;
 }
 

@@ -12,6 +12,7 @@
 #include "job/rasters.hpp"
 #include "job/request.hpp"
 #include "job/watch.hpp"
+#include "mesh/bounds.hpp"
 #include "sizing/make_size_field.hpp"
 
 namespace driftmesh::job {
@@ -22,6 +23,7 @@ struct Given {
   const SizeField* size = nullptr;               ///< the same function on every rank
   const Decomposition* decomposition = nullptr;  ///< made from the same input, after repair
   balancer::PolicyMaker policies{};              ///< for load balancing; equal on every rank
+  InsertionRules rules{};                        ///< other than these only for one piece
 };
 
 /// The domain to be meshed.
@@ -33,6 +35,7 @@ struct Domain {
   Rasters rasters;                             ///< open
   std::shared_ptr<const SizeField> size;       ///< null: none is asked for
   const BackgroundMesh* background = nullptr;  ///< the one that the size field uses
+  InsertionRules rules;
 };
 
 /// Reads or generates the domain, repairs and simplifies it, applies the rule for holes, and makes the size field.

@@ -26,7 +26,8 @@ double wanted_triangles(const Request::Bounds& bounds, std::int32_t ranks) {
 }
 
 QualityBounds bounds_of(const Request& request, const Domain& domain, const Triangulation& mesh, std::int32_t ranks) {
-  QualityBounds bounds{.min_angle = request.bounds.angle, .plain = request.bounds, .size = domain.size.get()};
+  QualityBounds bounds{
+      .min_angle = request.bounds.angle, .plain = request.bounds, .size = domain.size.get(), .rules = domain.rules};
   if (bounds.plain.region_areas) bounds.region_max_area = areas_by_region(domain.pslg);
   if (const double count = wanted_triangles(request.bounds, ranks); count > 0)
     bounds.plain.area = area_for_count(mesh, bounds, count);
@@ -107,10 +108,13 @@ Triangulated triangulate_domain(const Request& request, const Domain& domain, st
     const bool if_large = cut == Cut::kIfLarge && SizeBounds(result.bounds).any();
     if (if_large) count();  // acute corners, not yet prepared, change little there
     result.cut = cut == Cut::kAlways || (if_large && is_large(result.mesh, result.forecast));
+    const std::size_t before = result.mesh.live_vertices();
     result.acute_corners =
-        prepare_corners(result.mesh, result.cut ? CornerUse{} : CornerUse{request.bounds.angle, false});
+        prepare_corners(result.mesh, result.cut ? CornerUse{} : CornerUse{request.bounds.angle, false, domain.rules});
     if (result.acute_corners > 0 && wanted_triangles(request.bounds, ranks) > 0)
       result.bounds = bounds_of(request, domain, result.mesh, ranks);
+    if (std::int64_t& most = result.bounds.rules.most_points; most != INT64_MAX)
+      most -= static_cast<std::int64_t>(result.mesh.live_vertices() - before);
     if (!if_large || result.acute_corners > 0) count();
     warn(request, count_warnings(wanted_triangles(request.bounds, ranks), result.forecast), watch);
     warn(request, narrow_warnings(result.mesh, result.bounds, result.forecast), watch);

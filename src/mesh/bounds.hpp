@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -17,6 +18,23 @@ struct PlainBounds {
   bool region_areas = true;  ///< whether the area bounds of the input's regions apply
 };
 
+/// Where refinement may put points, and how many. Where it may not, triangles miss bounds. Only for meshes in one
+/// piece.
+struct InsertionRules {
+  /// The constrained segments that may be split.
+  enum class Split : std::uint8_t {
+    kEverywhere,
+    kInside,   ///< those with the domain on both sides
+    kNowhere,  ///< none: every segment of the input is one edge of the mesh
+  };
+  Split split = Split::kEverywhere;
+  /// Whether segments are split until no vertex that can see one lies inside its diametral circle. Then every triangle
+  /// is Delaunay, not only constrained Delaunay. Near segments that may not be split this does not hold.
+  bool conforming = false;
+  std::int64_t most_points = INT64_MAX;  ///< refinement ends when it has added this many
+  friend bool operator==(const InsertionRules&, const InsertionRules&) = default;
+};
+
 /// The bounds that every triangle of a finished mesh must meet. Lengths and areas are in the units of the input's
 /// coordinates.
 struct QualityBounds {
@@ -26,6 +44,7 @@ struct QualityBounds {
   std::vector<double> region_max_area{};
   /// Target edge length as a function of position, or null. Not owned.
   const SizeField* size = nullptr;
+  InsertionRules rules{};
 };
 
 /// The largest angle bound that is accepted, in degrees. In practice refinement terminates on every input up to about

@@ -128,7 +128,8 @@ class Planner {
         whole_(sectors.count(), false) {}
 
   CornerPlan plan() {
-    const std::vector<Group> clusters = groups_below(sectors_, protected_below(use_.min_angle));
+    const std::vector<Group> clusters =
+        groups_below(sectors_, use_.rules.conforming ? kAcute : protected_below(use_.min_angle));
     for (const Group& cluster : clusters) {
       const std::int32_t apex = names_++;
       for (const SegmentEnd e : cluster.ends) apex_[e] = apex;

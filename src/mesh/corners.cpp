@@ -34,16 +34,27 @@ void make_shell_piece(Triangulation& mesh, VertexId from, const CornerPlan::TipP
 
 }  // namespace
 
+bool may_split(const Triangulation& mesh, SubsegmentId s, InsertionRules::Split split) {
+  if (split != InsertionRules::Split::kInside) return split == InsertionRules::Split::kEverywhere;
+  const auto& half = mesh.subsegments[s].half;
+  return half[0] != kNone && half[1] != kNone;
+}
+
 std::int32_t prepare_corners(Triangulation& mesh, const CornerUse& use) {
   const CornerPlan plan = plan_corners(mesh, use);
+  const auto free = [&](SegmentEnd end) { return may_split(mesh, mesh.roots[root_of(end)].tree, use.rules.split); };
   IdVector<SegmentEnd, VertexId> reached;  // from each end
   for (const RootSegment& root : mesh.roots) reached.insert(reached.end(), root.vertex.begin(), root.vertex.end());
   Cavity cavity(mesh);
+  std::int64_t room = use.rules.most_points;
   for (const CornerPlan::Cut& cut : plan.cuts) {
+    if (!free(cut.end)) continue;
+    if (room-- <= 0) return plan.clusters;
     VertexId& from = reached[cut.end];
     if (const VertexId v = cut_shell_piece(mesh, cavity, from, cut); v != kNone) from = v;
   }
-  for (const CornerPlan::TipPiece& tip : plan.tips) make_shell_piece(mesh, reached[tip.end], tip);
+  for (const CornerPlan::TipPiece& tip : plan.tips)
+    if (free(tip.end)) make_shell_piece(mesh, reached[tip.end], tip);
   return plan.clusters;
 }
 

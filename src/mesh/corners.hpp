@@ -14,7 +14,11 @@ struct CornerUse {
   /// Whether separators are to end on segments. They can only halve all pieces of a shell at once, so shells are short
   /// then: they begin at half the distance, and no whole segment is one.
   bool decomposed = true;
+  InsertionRules rules{};
 };
+
+/// Whether a rule lets points be put on a leaf.
+[[nodiscard]] bool may_split(const Triangulation& mesh, SubsegmentId s, InsertionRules::Split split);
 
 /// Prepares a triangulation for refinement at its acute corners, so that midpoint splits terminate there.
 ///
@@ -38,6 +42,9 @@ struct CornerUse {
 /// A sharp cluster, one with an angle below 20 degrees, is cut on every further power of two as well, as far as each
 /// segment reaches; and where neighbors diverge by less than 0.01 radians, the longer one is also cut where the
 /// shorter one ends. Pieces that do not line up there would be refined to the distance between the segments.
+///
+/// Segments are only cut as far as the rules allow. Meshes that are to be conforming are prepared at all angles below
+/// 60 degrees: what protects a segment then is its whole diametral circle.
 ///
 /// Returns the number of clusters of segments that meet at less than 60 degrees, cut or not. Call once, after
 /// triangulate and before refinement.

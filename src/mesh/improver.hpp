@@ -14,6 +14,7 @@
 #include "mesh/area_bounds.hpp"
 #include "mesh/bounds.hpp"
 #include "mesh/cavity.hpp"
+#include "mesh/corners.hpp"
 #include "mesh/flips.hpp"
 #include "mesh/refiner_state.hpp"
 #include "mesh/triangulation.hpp"
@@ -98,6 +99,21 @@ class Improver {
 
   // ---- Insertion ----
 
+  /// From now on points are inserted by these rules. Before the first one.
+  void follow(const InsertionRules& rules) {
+    rules_ = rules;
+    if (rules.conforming) lens_.cos_squared = 0;
+  }
+
+  /// Inserts a point inside of triangle t, however near to a segment.
+  Progress insert_inside(TriangleId t, const Point& p) {
+    if (cavity_.gather(p, t, {.cos_squared = 1}) != Cavity::Found::kClear) return Progress::kStuck;
+    cavity_.fill(add_vertex(p, kFree));
+    ++state_.counters.free_points;
+    order().note_fresh();
+    return Progress::kChanged;
+  }
+
   /// Inserts p, a point in the circumdisk of triangle t, or splits the segment that it encroaches upon.
   Progress improve(TriangleId t, const Point& p) {
     if (!std::isfinite(p.x) || !std::isfinite(p.y)) return Progress::kStuck;
@@ -131,6 +147,7 @@ class Improver {
   AreaBounds areas_;
   std::vector<TriangleId> changed_;
   RefinerState state_;
+  InsertionRules rules_{};
 
  private:
   [[nodiscard]] Order& order() { return static_cast<Order&>(*this); }
@@ -174,8 +191,9 @@ class Improver {
     }
   }
 
-  /// Splits leaf s at its midpoint. False if depth or precision does not allow it.
+  /// Splits leaf s at its midpoint. False if depth, precision or the rules do not allow it.
   bool split(SubsegmentId s) {
+    if (rules_.split != InsertionRules::Split::kEverywhere && !may_split(mesh_, s, rules_.split)) return false;
     if (dyadic::depth(mesh_.subsegments[s].path) >= dyadic::kMaxDepth || state_.unsplittable.contains(s)) return false;
     clear_diametral_circle(s);
     const auto [a, b] = mesh_.subsegments[s].vertex;

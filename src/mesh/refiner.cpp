@@ -70,12 +70,17 @@ Refiner::Status Refiner::refine(std::int64_t insertions) {
   const auto inserted = [this] { return state_.counters.free_points + state_.counters.segment_points; };
   const std::int64_t stop = insertions > INT64_MAX - inserted() ? INT64_MAX : inserted() + insertions;
   while (inserted() < stop) {
-    if (static_cast<std::int64_t>(mesh_.triangles.size()) >= state_.max_triangles &&
-        static_cast<std::int64_t>(mesh_.live_triangles()) >= state_.max_triangles)
-      return Status::kFull;
+    if (is_full()) return Status::kFull;
     if (!step()) return Status::kDone;
   }
   return Status::kBudget;
+}
+
+bool Refiner::is_full() const {
+  const auto points = [this] { return static_cast<std::int64_t>(mesh_.live_vertices()) - given_points_; };
+  return (static_cast<std::int64_t>(mesh_.triangles.size()) >= state_.max_triangles &&
+          static_cast<std::int64_t>(mesh_.live_triangles()) >= state_.max_triangles) ||
+         (rules_.most_points != INT64_MAX && points() >= rules_.most_points);
 }
 
 /// One attempt at one triangle or segment; false when all is done.
@@ -94,7 +99,7 @@ bool Refiner::step() {
       }
       return true;
     case Stage::kRest:
-      if (!step_large() && !step_skinny()) enter(Stage::kDone);
+      if (!step_large() && !step_skinny() && !(rules_.conforming && split_encroached())) enter(Stage::kDone);
       return true;
     case Stage::kDone:
       break;
@@ -163,6 +168,36 @@ bool Refiner::step_segments() {
   return true;
 }
 
+bool Refiner::is_encroached(SubsegmentId s) const {
+  const Subsegment& segment = mesh_.subsegments[s];
+  if (!segment.is_leaf()) return false;
+  const auto [a, b] = segment.vertex;
+  return std::ranges::any_of(segment.half, [&, a = a, b = b](HalfEdge h) {
+    if (h == kNone) return false;
+    const VertexId apex = mesh_.apex(h);
+    return in_diametral_lens(mesh_.points[apex], mesh_.points[a], mesh_.points[b], 0) &&
+           !on_same_shell(mesh_, apex, a) && !on_same_shell(mesh_, apex, b);
+  });
+}
+
+/// Splits segments until none has a vertex in its diametral circle, or the mesh is full. Whether any was split.
+bool Refiner::split_encroached() {
+  bool any = false;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (SubsegmentId s{0}; s != mesh_.subsegments.next_id() && !is_full(); s = after(s))
+      if (is_encroached(s) && split_and_tell(s)) any = changed = true;
+  }
+  return any;
+}
+
+/// Where the circumcenter would split a segment that must stay whole, the centroid makes the triangle smaller.
+Refiner::Progress Refiner::improve_large(TriangleId t) {
+  const Progress progress = improve(t, circumcenter_of(t));
+  if (progress == Progress::kChanged || rules_.split == InsertionRules::Split::kEverywhere) return progress;
+  return insert_inside(t, centroid(corners(t)));
+}
+
 /// Has the processor fetch what an insertion into the triangle in slot t would read first. The sweep knows some slots
 /// ahead where it will go, and the insertions in between give memory the time to answer. Always inlined, since gcc
 /// drops calls of a function that does nothing but prefetch.
@@ -183,7 +218,7 @@ bool Refiner::step_large() {
     if (mesh_.triangles[t].alive()) [[likely]] {
       const double twice = twice_area(t);
       if (is_large(t, twice)) {
-        if (improve(t, circumcenter_of(t)) == Progress::kChanged) return true;
+        if (improve_large(t) == Progress::kChanged) return true;
         ++state_.counters.given_up;
       } else if (state_.stage != Stage::kCoarse) {
         const Shape s = shape_of(t, twice);

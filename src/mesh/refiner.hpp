@@ -27,7 +27,9 @@ class Refiner : private Improver<Refiner> {
  public:
   /// `mesh` must outlive the refiner, and only the refiner may change it. Throws Error if a bound is NaN or the angle
   /// bound lies outside [0, kMaxAngle].
-  Refiner(Triangulation& mesh, const QualityBounds& bounds) : Refiner(mesh, bounds.min_angle, bounds) {}
+  Refiner(Triangulation& mesh, const QualityBounds& bounds) : Refiner(mesh, bounds.min_angle, bounds) {
+    follow(bounds.rules);
+  }
   /// The same for any bounds on sizes.
   Refiner(Triangulation& mesh, double min_angle, const SizeBounds& sizes)
       : Refiner(mesh, min_angle, sizes, RefinerState::at_start(mesh, sizes)) {}
@@ -35,7 +37,7 @@ class Refiner : private Improver<Refiner> {
   enum class Status {
     kDone,    ///< every triangle meets the bounds, except for those that exceptions.hpp explains
     kBudget,  ///< stopped after the given number of insertions; call again
-    kFull,    ///< the mesh has reached the limit on triangles
+    kFull,    ///< the mesh has reached the limit on triangles or on points
   };
   /// Refines until all is done or about `insertions` points have been inserted.
   Status refine(std::int64_t insertions);
@@ -69,6 +71,10 @@ class Refiner : private Improver<Refiner> {
   void look_between();
   bool step();
   bool step_segments();
+  [[nodiscard]] bool is_full() const;
+  [[nodiscard]] bool is_encroached(SubsegmentId s) const;
+  bool split_encroached();
+  Progress improve_large(TriangleId t);
   void fetch_surroundings(TriangleId t) const;
   bool step_large();
   bool step_skinny();
@@ -79,7 +85,8 @@ class Refiner : private Improver<Refiner> {
   void note(TriangleId t, const Shape& s);
   void note_skinny(TriangleId t, const Shape& s);
 
-  double coarsening_ = 1;  // current factor on all area bounds
+  std::int64_t given_points_ = static_cast<std::int64_t>(mesh_.live_vertices());  // before refinement
+  double coarsening_ = 1;                                                         // current factor on all area bounds
 };
 
 }  // namespace driftmesh
