@@ -16,7 +16,7 @@ endif()
 
 # ---- The library ----
 install(DIRECTORY include/driftmesh DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
-        FILES_MATCHING PATTERN "*.hpp")
+        FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
 foreach(name IN LISTS driftmesh_products)
   install(TARGETS driftmesh_${name}_product EXPORT driftmesh-${name}
           LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
@@ -24,6 +24,11 @@ foreach(name IN LISTS driftmesh_products)
   install(EXPORT driftmesh-${name} NAMESPACE driftmesh:: FILE driftmesh-${name}.cmake
           DESTINATION ${DRIFTMESH_CMAKE_DIR} COMPONENT development)
 endforeach()
+if(TARGET driftmesh_triangle)
+  install(TARGETS driftmesh_triangle EXPORT driftmesh-triangle LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+  install(EXPORT driftmesh-triangle NAMESPACE driftmesh:: FILE driftmesh-triangle.cmake
+          DESTINATION ${DRIFTMESH_CMAKE_DIR} COMPONENT development)
+endif()
 
 configure_package_config_file(cmake/driftmeshConfig.cmake.in driftmeshConfig.cmake
                               INSTALL_DESTINATION ${DRIFTMESH_CMAKE_DIR} NO_SET_AND_CHECK_MACRO)

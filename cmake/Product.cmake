@@ -3,6 +3,7 @@
 #   driftmesh::driftmesh     meshes in this process; neither its headers nor its link line know of MPI
 #   driftmesh::distributed   meshes on the ranks of a communicator or in simulation; brings driftmesh::driftmesh with it
 #   driftmesh::pictures      pictures of inputs and meshes; brings driftmesh::driftmesh with it
+#   driftmesh::triangle      the call of Triangle's C library: a shared library by itself
 
 # The named boxes and all that they depend on.
 function(driftmesh_closure OUT)
@@ -64,3 +65,17 @@ driftmesh_closure(boxes_of_pictures picture)
 list(REMOVE_ITEM boxes_of_pictures ${boxes})
 driftmesh_product(pictures driftmesh_pictures BOXES ${boxes_of_pictures} LINKS driftmesh::driftmesh)
 list(APPEND driftmesh_products pictures)
+
+# For C. Its names and structures are those of its own version, so it exports them and nothing else, whatever is in it. Only where
+# boxes are compiled for shared libraries.
+if(DRIFTMESH_PYTHON OR BUILD_SHARED_LIBS)
+  set(exports ${PROJECT_SOURCE_DIR}/src/triangle/c/exports.map)
+  add_library(driftmesh_triangle SHARED $<TARGET_OBJECTS:dm_triangle_c>)
+  add_library(driftmesh::triangle ALIAS driftmesh_triangle)
+  target_link_libraries(driftmesh_triangle PRIVATE dm_triangle)
+  target_link_options(driftmesh_triangle PRIVATE LINKER:--exclude-libs,ALL LINKER:--version-script=${exports})
+  target_include_directories(driftmesh_triangle INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+                                                          $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  set_target_properties(driftmesh_triangle PROPERTIES LINKER_LANGUAGE CXX EXPORT_NAME triangle VERSION 1.0 SOVERSION 1
+                                                      LINK_DEPENDS ${exports})
+endif()

@@ -12,5 +12,6 @@ void add_size_class(pybind11::module_& module);
 void add_decomposition_class(pybind11::module_& module);
 void add_plot(pybind11::module_& module);
 void add_functions(pybind11::module_& module);
+void add_triangle_call(pybind11::module_& module);
 
 }  // namespace driftmesh::python

@@ -1,4 +1,4 @@
-"""Runs the blocks of Python in docs/python.md and README.md one after the other, and the examples.
+"""Runs the blocks of Python in docs/python.md, docs/which-tool.md and README.md one after the other, and the examples.
 
 usage: docs_test.py SOURCE_FOLDER
 """
@@ -41,6 +41,9 @@ class InFolder(unittest.TestCase):
         self.assertIn("accepted", self.run_page("docs/python.md", 9))
         for file in ("bay.vtu", "bay.png", "frame.poly", "frame.pvtu"):
             self.assertTrue(pathlib.Path(file).is_file(), file)
+
+    def test_other_tools(self):
+        self.assertIn("{1, 2, 3, 4}", self.run_page("docs/which-tool.md", 2))
 
     @unittest.skipUnless(importlib.util.find_spec("scipy"), "scipy is not installed")
     def test_readme(self):
