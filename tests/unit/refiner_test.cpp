@@ -11,6 +11,8 @@
 
 #include "driftmesh/error.hpp"
 #include "driftmesh/generate.hpp"
+#include "geometry/predicates.hpp"
+#include "geometry/triangle_geometry.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/exceptions.hpp"
@@ -206,4 +208,74 @@ TEST_CASE("a mesh that is surely small begins without a forecast that asks its s
   constexpr std::int64_t kAFew = 20;  // for corners, a centroid or two and the point itself
   CHECK(asked_before_first_point(0.05) < kAFew);
   CHECK(asked_before_first_point(0) > 2 * kAFew);  // nobody knows how fine it gets
+}
+
+namespace {
+
+/// Fans of segments, prepared and refined by the rules.
+Triangulation refined_fan(int wedges, double angle, const InsertionRules& rules) {
+  Triangulation mesh = triangulate(fan(static_cast<unsigned>(wedges) + 7, wedges));
+  prepare_corners(mesh, {angle, false, rules});
+  QualityBounds bounds{.min_angle = angle, .rules = rules};
+  bounds.plain.area = 0.01;
+  Refiner(mesh, bounds).refine();
+  return mesh;
+}
+
+/// Whether no apex beyond a constrained edge lies inside the circumcircle of the triangle before it.
+bool is_delaunay_across_segments(const Triangulation& mesh) {
+  return std::ranges::all_of(mesh.subsegments, [&](const Subsegment& s) {
+    if (!s.is_leaf() || s.half[0] == kNone || s.half[1] == kNone) return true;
+    const TriangleId t = triangle_of(s.half[0]);
+    return incircle(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), mesh.points[mesh.apex(s.half[1])]) <= 0;
+  });
+}
+
+}  // namespace
+
+TEST_CASE("rules of insertion keep segments whole and areas bounded") {
+  using Split = InsertionRules::Split;
+  for (const int wedges : {0, 3, 20})
+    for (const double angle : {0.0, 20.0, 33.0})
+      for (const Split split : {Split::kInside, Split::kNowhere}) {
+        CAPTURE(wedges);
+        CAPTURE(angle);
+        const Triangulation mesh = refined_fan(wedges, angle, {.split = split});
+        check_valid(mesh);
+        for (const TriangleId t : ids_of(mesh.triangles))
+          if (mesh.triangles[t].alive())
+            CHECK(signed_area(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)) <= 0.01);
+        std::size_t boundary = 0, leaves = 0;
+        for (const Subsegment& s : mesh.subsegments) {
+          leaves += s.is_leaf() ? 1 : 0;
+          boundary += s.is_leaf() && (s.half[0] == kNone || s.half[1] == kNone) ? 1 : 0;
+        }
+        CHECK(boundary == 4);
+        if (split == Split::kNowhere) CHECK(leaves == 4U + static_cast<unsigned>(wedges));
+      }
+}
+
+TEST_CASE("conforming meshes are Delaunay across segments, at small angles and without bounds, too") {
+  bool others_are = true;
+  for (const int wedges : {2, 3, 8, 20, 40})
+    for (const double angle : {0.0, 20.0, 33.0}) {
+      CAPTURE(wedges);
+      CAPTURE(angle);
+      const Triangulation mesh = refined_fan(wedges, angle, {.conforming = true});
+      check_valid(mesh);
+      CHECK(is_delaunay_across_segments(mesh));
+      CHECK(mesh.live_triangles() < 100'000);
+      others_are = others_are && is_delaunay_across_segments(refined_fan(wedges, angle, {}));
+    }
+  CHECK(!others_are);
+}
+
+TEST_CASE("refinement ends at a number of points") {
+  for (const std::int64_t most : {0, 1, 10, 100}) {
+    Triangulation mesh = triangulate(rectangle(2, 1));
+    QualityBounds bounds{.rules = {.most_points = most}};
+    bounds.plain.area = 1e-4;
+    CHECK(Refiner(mesh, bounds).refine() == Refiner::Status::kFull);
+    CHECK(static_cast<std::int64_t>(mesh.live_vertices()) == 4 + most);
+  }
 }
