@@ -17,6 +17,7 @@ namespace driftmesh::app {
 [[nodiscard]] cli::Command replay_command();
 [[nodiscard]] cli::Command report_command();
 [[nodiscard]] cli::Command run_command();
+[[nodiscard]] cli::Command triangle_command();
 /// These refer to the whole program, which must outlive them.
 [[nodiscard]] cli::Command config_command(const cli::Command& program);
 [[nodiscard]] cli::Command help_command(const cli::Command& program);

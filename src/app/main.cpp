@@ -1,10 +1,12 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <sstream>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "app/commands.hpp"
 #include "base/failure.hpp"
@@ -43,7 +45,7 @@ cli::Command commands_of_program() {
                    .help = "Print the versions of the program, its compiler and its libraries",
                    .prints = version_text}},
       .commands = {mesh_command(), check_command(), convert_command(), decompose_command(), generate_command(),
-                   plot_command(), run_command(), replay_command(), calibrate_command()},
+                   plot_command(), run_command(), replay_command(), calibrate_command(), triangle_command()},
       .notes =
           "For the options of a command, see: driftmesh COMMAND --help\n\n"
           "In place of any file name, - stands for standard input or output; an extension after it selects the "
@@ -105,13 +107,26 @@ int run_program(int argc, char** argv) {
   }
 }
 
-}  // namespace
+/// The words of the command line. Through a link named triangle, the program is its command of that name.
+std::vector<char*> words_of(int argc, char** argv) {
+  static char triangle[] = "triangle";
+  std::vector<char*> words(argv, argv + argc);
+  if (argc > 0 && std::filesystem::path(argv[0]).filename() == triangle) words.insert(words.begin() + 1, triangle);
+  return words;
+}
 
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   driftmesh::hold_closed_streams();
   driftmesh::remove_temporaries_on_signals();
   if (driftmesh::protocol::MpiSession::launched_as().value_or(driftmesh::Rank{0}) == driftmesh::Rank{0})
     return run_program(argc, argv);
   const Follower follower;
   return Follower::is_needed(argc, argv) ? follower.end(run_program(argc, argv)) : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<char*> words = words_of(argc, argv);
+  return run(static_cast<int>(words.size()), words.data());
 }

@@ -50,7 +50,9 @@ struct Command {
   std::string notes{};                  ///< further information: paragraphs, separated by empty lines
   std::vector<std::string> examples{};  ///< command lines
   std::string exit_codes{};             ///< "0 done, 1 error"
-  std::function<int(Call&)> run{};      ///< returns the exit code; throws UsageError for contradictory options
+  /// For a command whose words with one dash are no options of ours, "-pq30a0.1": takes each of them.
+  std::function<void(const std::string&)> take_switches{};
+  std::function<int(Call&)> run{};  ///< returns the exit code; throws UsageError for contradictory options
 };
 
 /// A command and the options given to it.

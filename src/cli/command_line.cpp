@@ -145,12 +145,35 @@ void require_all(const Call& call) {
   throw UsageError(error.what());
 }
 
+/// The words that are left once a command has taken its switches. A value that follows its option is none of them.
+std::vector<std::string> without_switches(const Command& program, const std::vector<std::string>& words) {
+  if (words.empty()) return words;
+  const auto command = std::ranges::find(program.commands, words.front(), &Command::name);
+  if (command == program.commands.end() || !command->take_switches) return words;
+  const auto takes_value = [&](const std::string& word) {
+    return std::ranges::any_of(command->options, [&](const Option& option) {
+      return option.kind == Option::Kind::kValue && word == "--" + option.name;
+    });
+  };
+  std::vector<std::string> left;
+  bool may_be_switch = true;
+  for (const std::string& word : words) {
+    const bool is_switch = may_be_switch && word.size() > 1 && word[0] == '-' && word[1] != '-';
+    if (is_switch)
+      command->take_switches(word);
+    else
+      left.push_back(word);
+    may_be_switch = !takes_value(word);
+  }
+  return left;
+}
+
 }  // namespace
 
 void parse(const Command& program, const std::vector<std::string>& words, Call& call) {
   CLI::App app;
   const Level root(program, app);
-  std::vector<std::string> backwards = backwards_for_cli11(words);
+  std::vector<std::string> backwards = backwards_for_cli11(without_switches(program, words));
   std::optional<CLI::ParseError> failure;
   try {
     app.parse(backwards);

@@ -2,33 +2,12 @@
 #include "driftmesh/error.hpp"
 #include "io/file_sink.hpp"
 #include "io/triangle_format.hpp"
+#include "io/triangle_tables.hpp"
 #include "mesh/mesh_edges.hpp"
 #include "pslg/triangle_files.hpp"
 
 namespace driftmesh {
 namespace {
-
-void write_node_lines(FileSink& sink, const Mesh& mesh) {
-  const std::size_t per_point = mesh.attributes_per_point;
-  const bool has_markers = !mesh.point_markers.empty();
-  sink.line(mesh.points.size(), 2, per_point, has_markers ? 1 : 0);
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    const std::span attributes(mesh.attributes.data() + v * per_point, per_point);
-    const std::span marker(mesh.point_markers.data() + (has_markers ? v : 0), has_markers ? 1 : 0);
-    sink.line(v + 1, mesh.points[v].x, mesh.points[v].y, attributes, marker);
-  }
-}
-
-void write_ele_lines(FileSink& sink, const Mesh& mesh) {
-  sink.line(mesh.triangles.size(), 3, mesh.regions.empty() ? 0 : 1);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    if (mesh.regions.empty())
-      sink.line(t + 1, a + 1, b + 1, c + 1);
-    else
-      sink.line(t + 1, a + 1, b + 1, c + 1, mesh.regions[t]);
-  }
-}
 
 using Edges = std::vector<Mesh::Edge>;
 
@@ -53,8 +32,8 @@ bool is_separator(const Mesh& mesh, const TriangleNeighbors& neighbors, std::siz
   return other >= 0 && !mesh.subdomains.empty() && mesh.subdomains[other] != mesh.subdomains[t];
 }
 
-void write_edges(FileSink& sink, const Mesh& mesh, const TriangleNeighbors& neighbors,
-                 const ConstrainedEdgeIndex& index) {
+void write_all_edges(FileSink& sink, const Mesh& mesh, const TriangleNeighbors& neighbors,
+                     const ConstrainedEdgeIndex& index) {
   std::size_t count = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i) count += lists_edge(neighbors, t, i) ? 1 : 0;
@@ -71,13 +50,6 @@ void write_edges(FileSink& sink, const Mesh& mesh, const TriangleNeighbors& neig
     }
 }
 
-void write_neighbors(FileSink& sink, const TriangleNeighbors& neighbors) {
-  sink.line(neighbors.size(), 3);
-  const auto numbered = [](std::int32_t t) { return t < 0 ? -1 : t + 1; };
-  for (std::size_t t = 0; t < neighbors.size(); ++t)
-    sink.line(t + 1, numbered(neighbors[t][0]), numbered(neighbors[t][1]), numbered(neighbors[t][2]));
-}
-
 }  // namespace
 
 void write_triangle_format(const Mesh& mesh, const std::string& stem, const std::vector<Point>& holes) {
@@ -92,13 +64,22 @@ void write_triangle_format(const Mesh& mesh, const std::string& stem, const std:
   FileSink segments(stem + ".poly");
   FileSink edges(stem + ".edge");
   FileSink neighbor_file(stem + ".neigh");
-  write_node_lines(nodes, mesh);
-  write_ele_lines(triangles, mesh);
+  write_nodes(nodes,
+              {.points = mesh.points,
+               .attributes = mesh.attributes,
+               .attributes_per_point = static_cast<std::size_t>(mesh.attributes_per_point),
+               .markers = mesh.point_markers},
+              1);
+  write_elements(triangles,
+                 {.points = {mesh.triangles.empty() ? nullptr : mesh.triangles[0].data(), 3 * mesh.triangles.size()},
+                  .attributes = mesh.regions,
+                  .attributes_per_element = mesh.regions.empty() ? std::size_t{0} : 1},
+                 1);
   const TriangleNeighbors neighbors = triangle_neighbors(mesh);
   const ConstrainedEdgeIndex index(mesh);
   write_segments(segments, mesh, separator_edges(mesh, neighbors, index, kSeparatorMarker), holes);
-  write_edges(edges, mesh, neighbors, index);
-  write_neighbors(neighbor_file, neighbors);
+  write_all_edges(edges, mesh, neighbors, index);
+  write_neighbors(neighbor_file, neighbors, 1);
   for (FileSink* sink : {&nodes, &triangles, &segments, &edges, &neighbor_file}) sink->commit();
   together.commit();
 }

@@ -16,7 +16,7 @@ namespace {
 
 /// A program with two commands, and the values it received.
 struct Program {
-  std::string input, order = "given";
+  std::string input, order = "given", switches;
   std::vector<std::string> outputs;
   double area = 0;
   int count = 0;
@@ -54,6 +54,11 @@ struct Program {
                        {.name = "speeds", .value = "S,S,...", .take = into(speeds, kPositive)},
                        {.kind = Option::Kind::kFlag, .name = "quiet", .letter = 'q', .take = into(quiet)},
                        {.kind = Option::Kind::kFlag, .name = "fast", .letter = 'f', .take = into(fast)}}},
+          {.name = "old",
+           .summary = "A command with switches of its own",
+           .options = {{.kind = Option::Kind::kPositional, .name = "input", .value = "INPUT", .take = into(input)},
+                       {.name = "order", .value = "ORDER", .take = into(order)}},
+           .take_switches = [this](const std::string& word) { switches += word; }},
           {.name = "generate", .summary = "Make an input", .commands = {{.name = "bay"}, {.name = "comb"}}}}};
 
   void read(const std::vector<std::string>& words) { parse(root, words, call); }
@@ -114,7 +119,7 @@ TEST_CASE("Commands can have subcommands") {
 }
 
 TEST_CASE("Errors suggest what was probably meant") {
-  CHECK(problem({}) == "a command is missing: mesh or generate");
+  CHECK(problem({}) == "a command is missing: mesh, old or generate");
   CHECK(problem({"mseh"}) == "unknown command 'mseh' (did you mean mesh?)");
   CHECK(problem({"merge"}) == "unknown command 'merge'");
   CHECK(problem({"generate", "by"}) == "unknown command 'by' (did you mean bay?)");
@@ -180,4 +185,14 @@ TEST_CASE("Help lists everything, in lines that fit") {
   const std::string wide = help_text("prog mesh", mesh);
   CHECK(wide.find("  --a-name-that-fills-its-column X\n" + std::string(30, ' ') + "xxx") != std::string::npos);
   CHECK(wide.find("x\n" + std::string(30, ' ') + "end\n") != std::string::npos);
+}
+
+TEST_CASE("a command takes its switches, wherever they are, but not the values of options") {
+  Program program;
+  program.read({"old", "-pq30", "in", "--order", "-x", "-a0.1"});
+  CHECK(program.switches == "-pq30-a0.1");
+  CHECK(program.input == "in");
+  CHECK(program.order == "-x");
+  CHECK(problem({"old", "--other", "-p"}).find("--other") != std::string::npos);
+  CHECK(problem({"mesh", "in", "-pq30"}) != "none");  // others do not
 }
