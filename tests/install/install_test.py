@@ -64,6 +64,13 @@ class Installed(unittest.TestCase):
         run(self.prefix / "bin" / "driftmesh", "check", build / "square.vtu")
         self.assertNotRegex(run("ldd", build / "first_mesh"), "libmpi|zoltan|cairo|yaml")
 
+    def test_consumer_in_c(self):
+        if not list(self.libdir.glob("libdriftmesh_triangle.so*")):
+            self.skipTest("this build has no library for C")
+        build = self.build("triangle_c")
+        self.assertIn("area 0.96", run("./triangle_c", cwd=build))
+        self.assertNotRegex(run("ldd", build / "triangle_c"), "libmpi|zoltan|cairo|yaml")
+
     def test_distributed_consumer(self):
         build = self.build("laplace")
         said = run(MPIEXEC, "-n", 2, build / "laplace", "1e-3")
