@@ -76,13 +76,34 @@ struct Subdomain::Body {
   double forecast;  // triangles when all bounds are met
 };
 
-Subdomain::Subdomain(SubdomainId id, const SubdomainContext& context) : Work(id), context_(&context) {}
+Subdomain::Subdomain(SubdomainId id, const SubdomainContext& context) : Work(id), context_(&context) {
+  const Beginning* const begin = beginning();
+  if (begin == nullptr) return;
+  refined_ = begin->mesh != nullptr;
+  tell(begin->told);
+}
 Subdomain::Subdomain(Subdomain&&) noexcept = default;
 Subdomain& Subdomain::operator=(Subdomain&&) noexcept = default;
 Subdomain::~Subdomain() = default;
 
 const SubdomainMesh& Subdomain::mesh() const {
   return body_->part;
+}
+
+SubdomainMesh Subdomain::take_mesh() {
+  wake();
+  return std::move(body_->part);
+}
+
+/// Null if it begins like all others do.
+const Beginning* Subdomain::beginning() const {
+  return context_->beginnings == nullptr ? nullptr : &(*context_->beginnings)[id()];
+}
+
+QualityBounds Subdomain::bounds() const {
+  QualityBounds bounds = context_->bounds;
+  if (const Beginning* const begin = beginning(); begin != nullptr && begin->size != nullptr) bounds.size = begin->size;
+  return bounds;
 }
 
 const RefineCounters& Subdomain::counters() const {
@@ -102,7 +123,9 @@ double Subdomain::remaining() const {
 
 std::int64_t Subdomain::triangles() const {
   if (dormant_) return dormant_->mesh.triangles();
-  return body_ ? static_cast<std::int64_t>(body_->part.mesh.live_triangles()) : 0;
+  if (body_) return static_cast<std::int64_t>(body_->part.mesh.live_triangles());
+  const Beginning* const begin = beginning();
+  return begin != nullptr && begin->mesh ? static_cast<std::int64_t>(begin->mesh->mesh.live_triangles()) : 0;
 }
 
 WorkState Subdomain::state() const {
@@ -189,7 +212,7 @@ void Subdomain::wake() {
   if (stored_) dormant_->mesh.give(stored_->read());
   stored_.reset();
   try {
-    body_ = std::make_unique<Body>(std::move(*dormant_), context_->bounds);
+    body_ = std::make_unique<Body>(std::move(*dormant_), bounds());
   } catch (const Error& error) {
     throw Error("the dormant form of subdomain " + to_string(id()) + " is damaged: " + error.what());
   }
@@ -198,13 +221,14 @@ void Subdomain::wake() {
 
 /// Whether it already has the point.
 bool Subdomain::has(const SplitPoint<GlobalRootId>& split) const {
-  if (!started()) return false;
+  const Beginning* const begin = beginning();
+  if (!started() && (begin == nullptr || !begin->mesh)) return false;
   const auto roots = context_->decomposition->roots_of(id());
   const auto place = std::ranges::lower_bound(roots, split.root);
   if (place == roots.end() || *place != split.root) return false;
   const auto root = static_cast<RootId>(place - roots.begin());
   if (dormant_) return dormant_->mesh.holds(root, split.path);
-  const Triangulation& mesh = body_->part.mesh;
+  const Triangulation& mesh = body_ ? body_->part.mesh : begin->mesh->mesh;
   return !mesh.subsegments[mesh.descend(root, split.path)].is_leaf();
 }
 
@@ -230,8 +254,9 @@ Subdomain Subdomain::unpack(std::span<const std::byte> bytes, const SubdomainCon
   subdomain.refined_ = state.refined;
   subdomain.pending_ = std::move(state.pending);
   try {
-    if (state.body) subdomain.body_ = std::make_unique<Body>(std::move(*state.body), context.bounds);
-    if (state.dormant && source == Source::kUnknown) Body(DormantBody(*state.dormant), context.bounds);  // it can wake
+    if (state.body) subdomain.body_ = std::make_unique<Body>(std::move(*state.body), subdomain.bounds());
+    if (state.dormant && source == Source::kUnknown)
+      Body(DormantBody(*state.dormant), subdomain.bounds());  // it can wake
   } catch (const Error& error) {
     throw Error("the packed form of subdomain " + to_string(state.id) + " is damaged: " + error.what());
   }
@@ -240,14 +265,22 @@ Subdomain Subdomain::unpack(std::span<const std::byte> bytes, const SubdomainCon
 }
 
 void Subdomain::make_body() {
-  body_ = std::make_unique<Body>(subdomain_triangulation(*context_->decomposition, id()), context_->bounds);
+  const Beginning* const begin = beginning();
+  if (begin != nullptr && begin->mesh) {
+    const SubdomainMesh& mesh = *begin->mesh;
+    const auto triangles = static_cast<double>(mesh.mesh.live_triangles());
+    body_ = std::make_unique<Body>(SubdomainState::Body{mesh, RefinerState::at_rest(mesh.mesh, bounds()), triangles},
+                                   bounds());
+    return;
+  }
+  body_ = std::make_unique<Body>(subdomain_triangulation(*context_->decomposition, id()), bounds());
   if (!context_->presplit) return;
   for (const GlobalRootId root : body_->part.roots)
     for (const dyadic::Path path : presplit_of(root)) take_in({root, path});
 }
 
 std::vector<dyadic::Path> Subdomain::presplit_of(GlobalRootId root) const {
-  if (context_->presplit_paths == nullptr) return presplit_paths(*context_->decomposition, root, context_->bounds);
+  if (context_->presplit_paths == nullptr) return presplit_paths(*context_->decomposition, root, bounds());
   const auto found = context_->presplit_paths->find(root);
   return found == context_->presplit_paths->end() ? std::vector<dyadic::Path>() : found->second;
 }

@@ -15,6 +15,7 @@
 #include "driftmesh/ids.hpp"
 #include "mesh/bounds.hpp"
 #include "mesh/refine_counters.hpp"
+#include "migration/beginning.hpp"
 #include "migration/packed_form.hpp"
 #include "migration/stored_bulk.hpp"
 #include "migration/work.hpp"
@@ -31,7 +32,8 @@ struct SubdomainContext {
   bool presplit = false;  ///< cut interfaces to the bounds' size before refinement (see decompose/presplit.hpp)
   ScratchFile* scratch = nullptr;                 ///< where those that sleep keep most of their bytes; null: in memory
   const PresplitPaths* presplit_paths = nullptr;  ///< those to take; null: those of the bounds
-  bool sleep = false;                             ///< whether subdomains that rest() fall asleep
+  const IdVector<SubdomainId, Beginning>* beginnings = nullptr;  ///< one for each; null: all begin with their outlines
+  bool sleep = false;                                            ///< whether subdomains that rest() fall asleep
   /// Called before that, by whichever thread has worked on the subdomain; may be empty.
   std::function<void(const Subdomain&)> finished{};
 };
@@ -106,11 +108,15 @@ class Subdomain final : public Work {
   /// The current mesh. Only after the first work(), and while awake.
   [[nodiscard]] const SubdomainMesh& mesh() const;
   [[nodiscard]] bool started() const { return body_ != nullptr || dormant_ != nullptr; }
+  /// Gives its mesh away, awake. Only after the first work(); the object can only be destroyed then.
+  [[nodiscard]] SubdomainMesh take_mesh();
   [[nodiscard]] const RefineCounters& counters() const;
 
  private:
   struct Body;  // the mesh and its refiner
 
+  [[nodiscard]] const Beginning* beginning() const;
+  [[nodiscard]] QualityBounds bounds() const;
   void make_body();
   [[nodiscard]] std::vector<dyadic::Path> presplit_of(GlobalRootId root) const;
   [[nodiscard]] DormantBody whole_dormant() const;

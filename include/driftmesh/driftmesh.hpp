@@ -8,6 +8,7 @@
 /// driftmesh::write_mesh(mesh, "bay.vtu");
 /// \endcode
 
+#include "driftmesh/adaptive.hpp"
 #include "driftmesh/check.hpp"
 #include "driftmesh/decomposition.hpp"
 #include "driftmesh/error.hpp"

@@ -196,8 +196,8 @@ void PieceAssembly::learn_roots(const Mail& mail) {
   }
 }
 
-DistributedPiece PieceAssembly::piece(const Pslg& pslg) const {
-  DistributedPiece piece = PieceBuilder(rank_, decomposition_, subdomains_, roots_, census_).build(held_, pslg);
+DistributedPiece PieceAssembly::piece(const Pslg& pslg, PiecePlaces* places) const {
+  DistributedPiece piece = PieceBuilder(rank_, decomposition_, subdomains_, roots_, census_).build(held_, pslg, places);
   piece.ranks = ranks_;
   return piece;
 }

@@ -6,6 +6,7 @@
 #include "distributed/exchange.hpp"
 #include "distributed/held_subdomains.hpp"
 #include "distributed/numbering.hpp"
+#include "distributed/piece_places.hpp"
 #include "driftmesh/distributed_piece.hpp"
 #include "driftmesh/pslg.hpp"
 
@@ -36,7 +37,8 @@ class PieceAssembly final : public Exchange {
 
   /// After the exchange. `pslg` is the (repaired) input that the decomposition was made from: markers, attributes and
   /// regions come from it. Throws Error if the coordinates of a point differ between two subdomains of this rank.
-  [[nodiscard]] DistributedPiece piece(const Pslg& pslg) const;
+  /// `places`: if not null, where it notes the place of all vertices.
+  [[nodiscard]] DistributedPiece piece(const Pslg& pslg, PiecePlaces* places = nullptr) const;
 
   // After the exchange, too:
 

@@ -38,14 +38,17 @@ PieceBuilder::PieceBuilder(Rank rank, const Decomposition& decomposition, const 
   piece_.has_regions = has_regions(decomposition);
 }
 
-DistributedPiece PieceBuilder::build(const HeldSubdomains& held, const Pslg& pslg) {
+DistributedPiece PieceBuilder::build(const HeldSubdomains& held, const Pslg& pslg, PiecePlaces* places) {
   piece_.rank = rank_;
   piece_.total_points = subdomains_.points;
   piece_.total_triangles = subdomains_.triangles;
   place_decomposition_points();
   place_added_points();
   reserve_triangles();
-  held([&](SubdomainId i, const SubdomainMesh& part) { add_subdomain(i, part, pslg); });
+  held([&](SubdomainId i, const SubdomainMesh& part) {
+    IdVector<VertexId, Place> place = add_subdomain(i, part, pslg);
+    if (places != nullptr) (*places)[i] = std::move(place);
+  });
   piece_.mesh.ranks.assign(piece_.mesh.triangles.size(), to_int(rank_));
   mark_points(pslg);
   set_attributes(pslg);
@@ -114,10 +117,13 @@ void PieceBuilder::reserve_triangles() {
   if (piece_.has_regions) piece_.mesh.regions.reserve(triangles);
 }
 
-void PieceBuilder::add_subdomain(SubdomainId i, const SubdomainMesh& part, const Pslg& pslg) {
-  const IdVector<VertexId, Place> place = place_vertices(i, part);
+/// Returns the places of its vertices.
+IdVector<VertexId, PieceBuilder::Place> PieceBuilder::add_subdomain(SubdomainId i, const SubdomainMesh& part,
+                                                                    const Pslg& pslg) {
+  IdVector<VertexId, Place> place = place_vertices(i, part);
   add_triangles(i, part.mesh, place, pslg);
   add_edges(i, part, place);
+  return place;
 }
 
 /// The place in the piece of each vertex of the subdomain's mesh.

@@ -7,6 +7,7 @@
 #include "distributed/census.hpp"
 #include "distributed/held_subdomains.hpp"
 #include "distributed/numbering.hpp"
+#include "distributed/piece_places.hpp"
 #include "driftmesh/distributed_piece.hpp"
 #include "driftmesh/pslg.hpp"
 
@@ -21,7 +22,8 @@ class PieceBuilder {
   PieceBuilder(Rank rank, const Decomposition& decomposition, const SubdomainTable& subdomains,
                std::span<const NumberedRoot> roots, std::span<const SubdomainCensus> census);
 
-  [[nodiscard]] DistributedPiece build(const HeldSubdomains& held, const Pslg& pslg);
+  /// `places`: as in PieceAssembly::piece.
+  [[nodiscard]] DistributedPiece build(const HeldSubdomains& held, const Pslg& pslg, PiecePlaces* places = nullptr);
 
  private:
   using Place = std::int32_t;  // index of a vertex in the piece
@@ -30,7 +32,7 @@ class PieceBuilder {
   void place_decomposition_points();
   void place_added_points();
   void reserve_triangles();
-  void add_subdomain(SubdomainId i, const SubdomainMesh& part, const Pslg& pslg);
+  [[nodiscard]] IdVector<VertexId, Place> add_subdomain(SubdomainId i, const SubdomainMesh& part, const Pslg& pslg);
   [[nodiscard]] IdVector<VertexId, Place> place_vertices(SubdomainId i, const SubdomainMesh& part);
   void set_point(Place place, const Point& p, SubdomainId i);
   void add_triangles(SubdomainId i, const Triangulation& mesh, const IdVector<VertexId, Place>& place,

@@ -119,6 +119,13 @@ bool memory_is_full(const Limits& limits, std::int64_t triangles) {
   return present_memory() + needed > limits.memory || needed + until_next_look > room_under_cap();
 }
 
+void check_limits(const Limits& limits, std::int64_t triangles) {
+  const bool by_memory = memory_is_full(limits, triangles);
+  if (by_memory || triangles > limits.triangles)
+    throw Keyed<LimitError>(
+        KeyText::of("{}. No mesh was written", stopped_message(limits, by_memory, triangles, true)));
+}
+
 double room_for(const Limits& limits, std::int64_t triangles) {
   constexpr double kMapped = 1.25;  // bytes mapped for each one in use: arrays have capacity to grow
   if (limits.memory == 0) return INFINITY;

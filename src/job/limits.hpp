@@ -67,6 +67,9 @@ void reuse_memory(const Request::Limits& asked);
 /// Whether a process that has made this many triangles cannot make more, if it is to finish them within its memory.
 [[nodiscard]] bool memory_is_full(const Limits& limits, std::int64_t triangles);
 
+/// Throws LimitError if a process that has made this many triangles, none of which is kept, has reached a limit.
+void check_limits(const Limits& limits, std::int64_t triangles);
+
 /// For how many more triangles a process that has made this many has memory, with a tenth of it left over: more than
 /// that it should not take from others.
 [[nodiscard]] double room_for(const Limits& limits, std::int64_t triangles);

@@ -17,4 +17,8 @@ DistributedPiece Refined::take_piece(Watch& /*watch*/) {
   throw Error(kNoMesh);
 }
 
+LiveMesh Refined::take_live() {
+  throw Error(kNoMesh);
+}
+
 }  // namespace driftmesh::job

@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "balancer/policy_interface/policy_list.hpp"
+#include "base/growing_array.hpp"
 #include "base/key_text.hpp"
 #include "base/staged_files.hpp"
 #include "cluster/cluster_run.hpp"
+#include "decompose/subdomain_mesh.hpp"
 #include "driftmesh/distributed_piece.hpp"
 #include "job/key.hpp"
 #include "job/limits.hpp"
@@ -23,6 +25,17 @@ namespace driftmesh::job {
 
 /// Draws a whole mesh. Empty: nothing is drawn.
 using Draw = std::function<void(const Mesh&)>;
+
+/// A mesh in subdomains that are to be refined further.
+struct LiveMesh {
+  RunPlan plan;  ///< without the size field
+  Pslg pslg;     ///< repaired
+  Rasters rasters;
+  Limits limits;
+  IdVector<SubdomainId, SubdomainMesh> parts;
+  /// The length that the size field asks for at each of their vertices; empty without one.
+  IdVector<SubdomainId, GrowingArray<double, VertexId>> lengths;
+};
 
 /// A mesh as refinement left it at its place. With many ranks each has one, and all calls are collective, in the same
 /// order on all of them.
@@ -49,6 +62,8 @@ class Refined {
   /// This rank's piece of the mesh, which is all of it where there is one process. Frees the rest. Throws Error at a
   /// place that keeps no mesh.
   [[nodiscard]] virtual DistributedPiece take_piece(Watch& watch);
+  /// The subdomains of this process, for more generations. Frees the rest. Throws Error at a place that keeps none.
+  [[nodiscard]] virtual LiveMesh take_live();
 
  protected:
   Refined() = default;

@@ -44,19 +44,12 @@ void ThreadRun::release() {
 void ThreadRun::refine() {
   const double forecast = forecast_of(order_.plan);
   RefinementInRounds::Watch watch{.progress = [=, this](std::int64_t made) { watch_.refining(made, forecast); },
-                                  .check = [this](std::int64_t made) { check(made); },
+                                  .check = [this](std::int64_t made) { check_limits(limits_, made); },
                                   .stalled = [this](const std::string& why) { watch_.stalled(why); }};
   if (inspects_at_once(order_.plan))
     watch.finished = [this](const Subdomain& subdomain, const SizeField* size) { note(subdomain, size); };
   refinement_.emplace(order_.plan, sizes_, std::move(watch));
   refinement_->run();
-}
-
-void ThreadRun::check(std::int64_t triangles) const {
-  const bool by_memory = memory_is_full(limits_, triangles);
-  if (by_memory || triangles > limits_.triangles)
-    throw Keyed<LimitError>(
-        KeyText::of("{}. No mesh was written", stopped_message(limits_, by_memory, triangles, true)));
 }
 
 void ThreadRun::report(RunRecord& run) {
@@ -139,6 +132,24 @@ DistributedPiece ThreadRun::take_piece(Watch& watch) {
   DistributedPiece piece = timed(watch, "assemble", [&] { return assemble(); });
   release();
   return piece;
+}
+
+LiveMesh ThreadRun::take_live() {
+  std::map<SubdomainId, Subdomain>& subdomains = refinement_->subdomains();
+  LiveMesh live;
+  live.parts.resize(subdomains.size());
+  for (auto& [id, subdomain] : subdomains) live.parts[id] = subdomain.take_mesh();
+  live.lengths.resize(sizes_.front() == nullptr ? 0 : live.parts.size());
+  in_parts(live.lengths.size(), sizes_.size(), [&](std::size_t thread, std::size_t begin, std::size_t end) {
+    for (auto s = static_cast<SubdomainId>(begin); to_index(s) < end; s = SubdomainId{to_int(s) + 1})
+      for (const Point& p : live.parts[s].mesh.points) live.lengths[s].push_back(sizes_[thread]->edge_length(p));
+  });
+  release();
+  live.plan = std::move(order_.plan);
+  live.pslg = std::move(order_.pslg);
+  live.rasters = std::move(order_.rasters);
+  live.limits = limits_;
+  return live;
 }
 
 }  // namespace driftmesh::job

@@ -34,11 +34,11 @@ class ThreadRun final : public Refined {
   [[nodiscard]] const RunPlan* plan() const override { return &order_.plan; }
   void write(const Request::Output& files, const Draw& draw, Watch& watch) override;
   [[nodiscard]] DistributedPiece take_piece(Watch& watch) override;
+  [[nodiscard]] LiveMesh take_live() override;
 
  private:
   /// Frees the subdomains and what they need.
   void release();
-  void check(std::int64_t triangles) const;
   void note(const Subdomain& subdomain, const SizeField* size);
   [[nodiscard]] MeshFacts facts();
   [[nodiscard]] std::vector<SubdomainCensus> census() const;

@@ -17,6 +17,7 @@
 #include "driftmesh/policy.hpp"
 #include "driftmesh/policy_parameters.hpp"
 #include "mesh/bounds.hpp"
+#include "migration/beginning.hpp"
 #include "runtime/agenda.hpp"
 
 namespace driftmesh {
@@ -60,7 +61,8 @@ struct RunPlan : LoopPlan {
   Decomposition decomposition;
   QualityBounds bounds;
   bool presplit = false;
-  std::shared_ptr<const PresplitPaths> presplit_paths;  ///< null: each side of an interface computes them
+  std::shared_ptr<const PresplitPaths> presplit_paths;           ///< null: each side of an interface computes them
+  const IdVector<SubdomainId, Beginning>* beginnings = nullptr;  ///< see SubdomainContext; not owned
   ScratchFile* scratch = nullptr;  ///< this process's, for subdomains that sleep; not owned; null: memory
 };
 

@@ -10,6 +10,7 @@ SubdomainContext context_of(const RunPlan& plan) {
           .presplit = plan.presplit,
           .scratch = plan.scratch,
           .presplit_paths = plan.presplit_paths.get(),
+          .beginnings = plan.beginnings,
           .sleep = plan.work.sleep};
 }
 

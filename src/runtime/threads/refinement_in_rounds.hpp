@@ -51,6 +51,8 @@ class RefinementInRounds {
 
   /// All subdomains.
   [[nodiscard]] const std::map<SubdomainId, Subdomain>& subdomains() const { return subdomains_; }
+  /// The same, to be taken apart.
+  [[nodiscard]] std::map<SubdomainId, Subdomain>& subdomains() { return subdomains_; }
   [[nodiscard]] IdSpan<Rank, const RankOutcome> outcomes() const { return outcomes_; }
   [[nodiscard]] int rounds() const { return rounds_; }
 

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "driftmesh/mesh.hpp"
+#include "driftmesh/options.hpp"
+#include "driftmesh/pslg.hpp"
+
+namespace driftmesh {
+
+/// How lengths that a caller asks for are taken. Lengths are in the units of the coordinates.
+struct AdaptiveOptions {
+  double shortest = 0;                                       ///< shorter lengths are raised to this one
+  double longest = std::numeric_limits<double>::infinity();  ///< longer ones are lowered to this one
+  /// Lengths at points grow by at most this much per unit of distance along the edges of the mesh, which lowers some of
+  /// them; 0: no limit. It makes sure that nothing between points is missed.
+  double gradation = 0.2;
+  /// A subdomain is coarsened once that saves this fraction of its triangles.
+  double coarsening = 0.03;
+  /// If lengths ask for more triangles than this, all are made longer by a factor that fits, as forecast.
+  /// The first forecast may be some 20 % too low; later ones know how many more triangles the present mesh needed. 0:
+  /// no limit.
+  double most_triangles = 0;
+};
+
+/// What a call of adapt() did.
+struct AdaptReport {
+  std::int64_t generation = 0;  ///< 0 before the first call
+  std::int32_t kept = 0;        ///< subdomains that are what they were, but for points on their borders
+  std::int32_t remade = 0;      ///< subdomains that were made anew
+  double scale = 1;             ///< factor on all lengths, for most_triangles
+  // Times in seconds.
+  double lengths = 0;   ///< limiting and comparing lengths
+  double refine = 0;    ///< making the subdomains
+  double assemble = 0;  ///< putting them together
+  double transfer = 0;  ///< fields, and what stayed
+  double seconds = 0;   ///< all of it
+};
+
+/// A mesh that follows a solution: it is refined and coarsened where lengths at its points ask for it, and carries
+/// fields along. Made in this process by its threads. Each mesh is a constrained Delaunay triangulation that meets the
+/// bounds of mesh() with the new lengths, also as to what counts between corners and centroid. Outlines, markers and
+/// regions stay; so do whole subdomains, with all their points and triangles, where the mesh is as it should be.
+///
+/// The domain is cut once, as by options.subdomains. options.min_angle, max_area and region_areas hold for all
+/// generations; options.size and options.triangles for the first one alone. The same calls give the same meshes and
+/// fields, bit for bit, on any number of threads.
+///
+/// An object is used by one thread at a time. What throws leaves it as it was.
+///
+/// \code
+/// driftmesh::AdaptiveMesh flow(driftmesh::generate("pipe"), {.max_area = 100});
+/// flow.attach("u", std::vector<double>(flow.mesh().points.size(), 1));
+/// std::vector<double> lengths(flow.mesh().points.size(), 20);
+/// lengths[0] = 1;       // where the solution asks for more
+/// flow.adapt(lengths);  // a new mesh, and u on it
+/// std::cout << flow.mesh().triangles.size() << " triangles, " << flow.field("u").size() << " values\n";
+/// \endcode
+class AdaptiveMesh {
+ public:
+  /// Makes the first mesh. Throws what mesh() throws, and Error for options that are out of range.
+  explicit AdaptiveMesh(const Pslg& input, const MeshOptions& options = {}, const AdaptiveOptions& adaptive = {});
+  AdaptiveMesh(AdaptiveMesh&&) noexcept;
+  AdaptiveMesh& operator=(AdaptiveMesh&&) noexcept;
+  ~AdaptiveMesh();
+
+  /// The present mesh, valid until the next call of adapt().
+  [[nodiscard]] const Mesh& mesh() const;
+  [[nodiscard]] const AdaptiveOptions& options() const;
+
+  /// Makes the next mesh, whose lengths are linear on the triangles of the present one. `lengths`: one for each of its
+  /// points, > 0, or infinite for no bound. Throws Error for anything else, LimitError, Cancelled, and what
+  /// options.progress throws.
+  void adapt(std::span<const double> lengths);
+  /// The same for a size as MeshOptions::size, with its rules; its growth is not limited. Also throws what `size`
+  /// throws.
+  void adapt(const std::function<double(const Point&)>& size);
+
+  /// Lengths at the points of the present mesh for adapt(), such that errors are spread evenly over the triangles of
+  /// the next one and sum up to `target`. `indicators`: an estimate of the error in each triangle, >= 0, whose squares
+  /// sum up to the square of the whole error, and which decreases like the `order`-th power of its edges: 2 for linear
+  /// elements in the norm of L2, 1 in that of H1. Where there is no error, lengths are infinite: see
+  /// AdaptiveOptions::longest. Throws Error unless there is one indicator for each triangle, and target and order are
+  /// positive.
+  [[nodiscard]] std::vector<double> lengths_from_error(std::span<const double> indicators, double target,
+                                                       double order = 1) const;
+
+  /// Adds a field with the same number of values at each point, point by point, that adapt() carries along: linear
+  /// interpolation; a point that stays keeps its bits. Replaces a field of that name. Throws Error if the number of
+  /// values is no multiple of that of points.
+  void attach(const std::string& name, std::vector<double> values);
+  /// Throws Error if there is no such field.
+  void detach(const std::string& name);
+  /// The values of a field on the present mesh, to be read and changed; valid until the next call of adapt() or
+  /// attach(). Throws Error if there is no such field.
+  [[nodiscard]] std::span<double> field(const std::string& name);
+  [[nodiscard]] std::span<const double> field(const std::string& name) const;
+
+  // After adapt():
+
+  /// For each point of the present mesh the number in the last one of the point at the same place; -1: it is new.
+  [[nodiscard]] const std::vector<std::int32_t>& stayed_points() const;
+  /// The same for triangles: those that have the same corners.
+  [[nodiscard]] const std::vector<std::int32_t>& stayed_triangles() const;
+  [[nodiscard]] const AdaptReport& report() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace driftmesh

@@ -1,0 +1,36 @@
+#include "adapt/demand.hpp"
+
+#include <algorithm>
+
+#include "mesh/area_bounds.hpp"
+#include "mesh/bound_forecast.hpp"
+
+namespace driftmesh::adapt {
+
+Demand demand_of(const Triangulation& mesh, const QualityBounds& bounds, const Lengths& lengths,
+                 const SizeField* between) {
+  QualityBounds all = bounds;
+  all.size = between;
+  const AreaBounds areas(mesh, all);
+  Demand demand;
+  for (const TriangleId t : ids_of(mesh.triangles)) {
+    if (!mesh.triangles[t].alive()) continue;
+    const CornerPoints corners{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
+    const double twice = 2 * signed_area(corners[0], corners[1], corners[2]);
+    double asked = 1 / areas.constant(t);  // per twice the area
+    demand.too_large = demand.too_large || twice > areas.constant(t);
+    if (!lengths.empty()) {
+      const auto& v = mesh.triangles[t].vertex;
+      const double a = lengths[v[0]], b = lengths[v[1]], c = lengths[v[2]], least = std::min({a, b, c});
+      const auto at = [](double h) { return 1 / twice_area_of_edge(h); };
+      asked = std::max(asked, (at((a + b) / 2) + at((b + c) / 2) + at((c + a) / 2)) / 3);
+      demand.too_large = demand.too_large || twice > twice_area_of_edge(least) ||
+                         (between != nullptr && areas.above_size(
+                                                    corners, twice, [&] { return least; }, true));
+    }
+    demand.triangles += kTrianglesPerBound * asked * twice;
+  }
+  return demand;
+}
+
+}  // namespace driftmesh::adapt

@@ -1,0 +1,61 @@
+#include "adapt/descent.hpp"
+
+#include <algorithm>
+
+#include "adapt/locator.hpp"
+
+namespace driftmesh::adapt {
+namespace {
+
+/// Looks among the triangles around vertex v, one of which is t, for the one with these corners.
+TriangleId find_around(const Triangulation& mesh, TriangleId t, VertexId v, const std::array<VertexId, 3>& corners) {
+  const auto has_corners = [&](TriangleId u) {
+    return std::ranges::all_of(mesh.triangles[u].vertex,
+                               [&](VertexId w) { return std::ranges::count(corners, w) == 1; });
+  };
+  for (const bool forward : {true, false})
+    for (TriangleId u = t;;) {
+      if (has_corners(u)) return u;
+      const auto& vertex = mesh.triangles[u].vertex;
+      const int i = vertex[0] == v ? 0 : vertex[1] == v ? 1 : 2;
+      const HalfEdge beyond = mesh.across(half_edge(u, forward ? next(i) : previous(i)));
+      if (beyond == kNone) break;
+      u = triangle_of(beyond);
+      if (u == t) return kNone;
+    }
+  return kNone;
+}
+
+}  // namespace
+
+Descent trace(const Triangulation& old_mesh, const Triangulation& new_mesh) {
+  Descent descent;
+  descent.sources.resize(new_mesh.points.size());
+  IdVector<VertexId, TriangleId> around(new_mesh.points.size(), kNone);
+  const Locator locator(old_mesh);
+  for (const VertexId v : ids_of(new_mesh.points)) {
+    if (new_mesh.origin[v] == kDeleted) continue;
+    const Locator::Place place = locator.locate(new_mesh.points[v]);
+    Descent::Source& source = descent.sources[v];
+    source.vertex = old_mesh.triangles[place.triangle].vertex;
+    source.weight = place.weight;
+    source.stays = place.is_vertex();
+    if (source.stays) {
+      std::swap(source.vertex[0], source.vertex[place.corner]);
+      std::swap(source.weight[0], source.weight[place.corner]);
+    }
+    around[v] = place.triangle;
+  }
+  descent.same.assign(new_mesh.triangles.size(), kNone);
+  for (const TriangleId t : ids_of(new_mesh.triangles)) {
+    if (!new_mesh.triangles[t].alive()) continue;
+    const auto& v = new_mesh.triangles[t].vertex;
+    if (!std::ranges::all_of(v, [&](VertexId w) { return descent.sources[w].stays; })) continue;
+    std::array<VertexId, 3> old{};
+    for (int i = 0; i < 3; ++i) old[i] = descent.sources[v[i]].vertex[0];
+    descent.same[t] = find_around(old_mesh, around[v[0]], old[0], old);
+  }
+  return descent;
+}
+
+}  // namespace driftmesh::adapt

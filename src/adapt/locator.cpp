@@ -1,0 +1,155 @@
+#include "adapt/locator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/box.hpp"
+#include "geometry/triangle_geometry.hpp"
+
+namespace driftmesh::adapt {
+namespace {
+
+/// The place of p along the edge from a to b, 0 to 1 between its ends.
+double along(const Point& a, const Point& b, const Point& p) {
+  const double dx = b.x - a.x, dy = b.y - a.y;
+  return ((p.x - a.x) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy);
+}
+
+double squared_distance_to_edge(const Point& a, const Point& b, const Point& p) {
+  const double t = std::clamp(along(a, b, p), 0.0, 1.0);
+  return squared_distance(p, {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)});
+}
+
+}  // namespace
+
+/// Where a walk ended.
+struct Locator::Stop {
+  TriangleId triangle{};
+  std::array<double, 3> side{};  // twice the area between the point and the edge opposite each corner, with exact sign
+  int least = 0;                 // which of them is the least; < 0: the point is beyond that edge
+  [[nodiscard]] bool inside() const { return side[least] >= 0; }
+};
+
+Locator::Locator(const Triangulation& mesh) : mesh_(mesh) {
+  const auto alive = std::ranges::find_if(mesh.triangles, [](const Triangle& t) { return t.alive(); });
+  last_ = TriangleId(alive - mesh.triangles.begin());
+}
+
+/// Across the edge that separates the triangle most from the point, until there is none, or nothing beyond it.
+Locator::Stop Locator::walk(TriangleId start, const Point& p) const {
+  const auto most_steps = 100 + 4 * static_cast<int>(std::sqrt(static_cast<double>(mesh_.triangles.size())));
+  Stop stop{start};
+  for (int step = 0; step < most_steps; ++step) {
+    const Triangle& t = mesh_.triangles[stop.triangle];
+    for (int i = 0; i < 3; ++i)
+      stop.side[i] = orient2d(mesh_.points[t.vertex[next(i)]], mesh_.points[t.vertex[previous(i)]], p);
+    stop.least = static_cast<int>(std::ranges::min_element(stop.side) - stop.side.begin());
+    if (stop.inside()) break;
+    const HalfEdge beyond = mesh_.across(half_edge(stop.triangle, stop.least));
+    if (beyond == kNone) break;
+    stop.triangle = triangle_of(beyond);
+  }
+  return stop;
+}
+
+/// Whether the point is inside, or outside by no more than rounding.
+bool Locator::is_settled(const Stop& stop, const Point& p) const {
+  if (stop.inside()) return true;
+  const HalfEdge edge = half_edge(stop.triangle, stop.least);
+  if (mesh_.across(edge) != kNone) return false;
+  const Point &a = mesh_.points[mesh_.edge_start(edge)], &b = mesh_.points[mesh_.edge_end(edge)];
+  const double length = std::sqrt(squared_distance(a, b)), t = along(a, b, p);
+  constexpr double kRounding = 1e-15, kNear = 1e-9;
+  const double near = std::max(kNear * length, kRounding * std::max(std::fabs(p.x), std::fabs(p.y)));
+  return t >= 0 && t <= 1 && -stop.side[stop.least] <= near * length;
+}
+
+void Locator::make_starts() const {
+  Box box;
+  for (const VertexId v : ids_of(mesh_.points))
+    if (mesh_.origin[v] != kDeleted) box.extend(mesh_.points[v]);
+  const double columns = std::ceil(std::sqrt(static_cast<double>(mesh_.live_triangles()) / 4));
+  low_ = box.low;
+  width_ = std::max(box.high.x - box.low.x, box.high.y - box.low.y) / columns;
+  columns_ = static_cast<std::size_t>(columns);
+  starts_.assign(columns_ * columns_, kNone);
+  const auto column = [&](double from) { return std::min(static_cast<std::size_t>(from / width_), columns_ - 1); };
+  for (const TriangleId t : ids_of(mesh_.triangles)) {
+    if (!mesh_.triangles[t].alive()) continue;
+    const Point c = centroid({mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)});
+    starts_[column(c.y - low_.y) * columns_ + column(c.x - low_.x)] = t;
+  }
+}
+
+/// kNone if no triangle is centered in the square of the point.
+TriangleId Locator::start_near(const Point& p) const {
+  if (starts_.empty()) make_starts();
+  const auto column = [&](double from) {
+    return static_cast<std::size_t>(std::clamp(from / width_, 0.0, static_cast<double>(columns_ - 1)));
+  };
+  return starts_[column(p.y - low_.y) * columns_ + column(p.x - low_.x)];
+}
+
+/// Looks at all triangles: the one that contains the point, or else the one whose boundary edge is nearest.
+Locator::Stop Locator::search(const Point& p) const {
+  Stop nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (const TriangleId t : ids_of(mesh_.triangles)) {
+    if (!mesh_.triangles[t].alive()) continue;
+    Stop stop{t};
+    for (int i = 0; i < 3; ++i) stop.side[i] = orient2d(mesh_.corner(t, next(i)), mesh_.corner(t, previous(i)), p);
+    stop.least = static_cast<int>(std::ranges::min_element(stop.side) - stop.side.begin());
+    if (stop.inside()) return stop;
+    for (int i = 0; i < 3; ++i) {
+      if (mesh_.across(half_edge(t, i)) != kNone) continue;
+      const double distance = squared_distance_to_edge(mesh_.corner(t, next(i)), mesh_.corner(t, previous(i)), p);
+      if (distance >= least) continue;
+      least = distance;
+      nearest = stop;
+      nearest.least = i;
+      nearest.side[i] = std::min(nearest.side[i], -0.0);
+    }
+  }
+  return nearest;
+}
+
+Locator::Place Locator::place_at(const Stop& stop, const Point& p) const {
+  Place place{stop.triangle};
+  const auto at_corner = [&](int i) {
+    place.weight = {};
+    place.weight[i] = 1;
+    place.corner = i;
+  };
+  for (int i = 0; i < 3; ++i)
+    if (mesh_.corner(stop.triangle, i) == p) {
+      at_corner(i);
+      return place;
+    }
+  const HalfEdge edge = half_edge(stop.triangle, stop.least);
+  if (stop.side[stop.least] > 0) {
+    const double all = stop.side[0] + stop.side[1] + stop.side[2];
+    for (int i = 0; i < 3; ++i) place.weight[i] = stop.side[i] / all;
+    return place;
+  }
+  const HalfEdge other = mesh_.across(edge);
+  const HalfEdge chosen = other != kNone && triangle_of(other) < stop.triangle ? other : edge;
+  const Point &a = mesh_.points[mesh_.edge_start(chosen)], &b = mesh_.points[mesh_.edge_end(chosen)];
+  const double t = std::clamp(along(a, b, p), 0.0, 1.0);
+  place.triangle = triangle_of(chosen);
+  place.weight[next(index_of(chosen))] = 1 - t;
+  place.weight[previous(index_of(chosen))] = t;
+  return place;
+}
+
+Locator::Place Locator::locate(const Point& p) const {
+  Stop stop = walk(last_, p);
+  if (!is_settled(stop, p)) {
+    if (const TriangleId start = start_near(p); start != kNone) stop = walk(start, p);
+    if (!is_settled(stop, p)) stop = search(p);
+  }
+  last_ = stop.triangle;
+  return place_at(stop, p);
+}
+
+}  // namespace driftmesh::adapt

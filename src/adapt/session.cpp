@@ -1,0 +1,137 @@
+#include "adapt/session.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "adapt/demand.hpp"
+#include "adapt/lineage.hpp"
+#include "base/in_turns.hpp"
+#include "base/stopwatch.hpp"
+#include "driftmesh/error.hpp"
+
+namespace driftmesh::adapt {
+namespace {
+
+void require_sound(const AdaptiveOptions& options) {
+  const auto require = [](bool sound, const char* name, double value, const char* rule) {
+    if (!sound)
+      throw Error(std::string("AdaptiveOptions::") + name + " is " + std::to_string(value) + "; it must be " + rule);
+  };
+  require(options.shortest >= 0, "shortest", options.shortest, "at least 0");
+  require(options.longest > 0 && options.longest >= options.shortest, "longest", options.longest,
+          "positive, and not below shortest");
+  require(options.gradation >= 0, "gradation", options.gradation, "at least 0");
+  require(options.coarsening >= 0 && options.coarsening < 1, "coarsening", options.coarsening, "from 0 up to 1");
+  require(options.most_triangles >= 0, "most_triangles", options.most_triangles, "at least 0");
+}
+
+/// Linear interpolation; a point that stays keeps the bits of its values.
+std::vector<double> interpolated(const Lineage& lineage, const std::vector<double>& old, std::size_t components,
+                                 std::size_t points) {
+  std::vector<double> values(points * components);
+  lineage.visit_points([&](std::int32_t point, const Lineage::Source& from) {
+    for (std::size_t k = 0; k < components; ++k) {
+      const auto at = [&](int i) { return old[to_index(from.point[i]) * components + k]; };
+      double& value = values[to_index(point) * components + k];
+      value = at(0);
+      if (from.stays) continue;
+      const auto [least, most] = std::minmax({at(0), at(1), at(2)});
+      value = std::clamp(from.weight[0] * at(0) + from.weight[1] * at(1) + from.weight[2] * at(2), least, most);
+    }
+  });
+  return values;
+}
+
+}  // namespace
+
+Session::Session(Start start, const AdaptiveOptions& options, std::function<void(Mesh&)> finish)
+    : plan_(std::move(start.plan)), pslg_(std::move(start.pslg)), options_(options), finish_(std::move(finish)) {
+  require_sound(options);
+  Parts parts;
+  for (const SubdomainId s : ids_of(start.parts)) {
+    const double asked =
+        demand_of(start.parts[s].mesh, plan_.bounds, start.lengths.empty() ? Lengths() : start.lengths[s]).triangles;
+    parts.push_back({std::make_shared<const SubdomainMesh>(std::move(start.parts[s])), asked});
+  }
+  present_ = assemble(plan_.decomposition, pslg_, std::move(parts));
+  finish_(present_.piece.mesh);
+}
+
+void Session::adapt(std::span<const double> lengths, std::int32_t threads, const Hooks& hooks) {
+  advance([&] { return fit_lengths(present_, plan_.bounds, options_, lengths, threads); }, threads, hooks);
+}
+
+void Session::adapt(const SizeField& size, std::int32_t threads, const Hooks& hooks) {
+  FittedField field(size, options_);
+  advance([&] { return fit_field(present_, plan_.bounds, options_, field, threads); }, threads, hooks);
+}
+
+void Session::advance(const std::function<Wanted()>& want, std::int32_t threads, const Hooks& hooks) {
+  const Stopwatch all;
+  AdaptReport report{.generation = report_.generation + 1};
+  Stopwatch stage;
+  const Wanted wanted = want();
+  report.scale = wanted.scale;
+  IdVector<SubdomainId, Demand> demands(present_.parts.size());
+  in_turns(demands.size(), to_index(threads), [&](std::size_t i) {
+    const auto s = static_cast<SubdomainId>(i);
+    demands[s] = demand_of(present_.parts[s].mesh->mesh, plan_.bounds, wanted.lengths[s], wanted.between);
+  });
+  IdVector<SubdomainId, Fate> fates;
+  for (const SubdomainId s : ids_of(demands)) {
+    fates.push_back(fate_of(present_.parts[s], demands[s], options_.coarsening));
+    ++(fates[s] == Fate::kKeep ? report.kept : report.remade);
+  }
+  report.lengths = stage.seconds();
+
+  stage = {};
+  Parts parts = regenerate(plan_, present_.parts, wanted, demands, fates, threads, hooks);
+  report.refine = stage.seconds();
+
+  stage = {};
+  Generation next = assemble(plan_.decomposition, pslg_, std::move(parts));
+  finish_(next.piece.mesh);
+  report.assemble = stage.seconds();
+
+  stage = {};
+  const Lineage lineage(present_, next, threads);
+  std::vector<std::int32_t> points = lineage.stayed_points(), triangles = lineage.stayed_triangles();
+  std::map<std::string, std::vector<double>> fields;
+  const std::size_t before = mesh().points.size(), after = next.piece.mesh.points.size();
+  for (const auto& [name, values] : fields_)
+    fields[name] = interpolated(lineage, values, values.size() / before, after);
+  report.transfer = stage.seconds();
+
+  present_ = std::move(next);
+  stayed_points_ = std::move(points);
+  stayed_triangles_ = std::move(triangles);
+  fields_ = std::move(fields);
+  report.seconds = all.seconds();
+  report_ = report;
+}
+
+void Session::attach(const std::string& name, std::vector<double> values) {
+  const std::size_t points = mesh().points.size();
+  if (values.empty() || values.size() % points != 0)
+    throw Error("attach: field '" + name + "' has " + std::to_string(values.size()) + " values for " +
+                std::to_string(points) + " points; give the same number for each point of the present mesh");
+  fields_[name] = std::move(values);
+}
+
+std::vector<double>& Session::find_field(const std::string& name) {
+  const auto found = fields_.find(name);
+  if (found == fields_.end()) throw Error("there is no field '" + name + "'; attach it first");
+  return found->second;
+}
+
+void Session::detach(const std::string& name) {
+  (void)find_field(name);
+  fields_.erase(name);
+}
+
+std::span<double> Session::field(const std::string& name) {
+  return find_field(name);
+}
+
+}  // namespace driftmesh::adapt
