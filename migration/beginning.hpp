@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/growing_array.hpp"
 #include "decompose/subdomain_mesh.hpp"
 #include "driftmesh/ids.hpp"
 #include "driftmesh/size_field.hpp"
@@ -12,8 +13,13 @@ namespace driftmesh {
 
 /// What a subdomain of a later generation (docs/theory.md) begins with.
 struct Beginning {
-  const SizeField* size = nullptr;               ///< in place of the bounds'; asked by one thread at a time. Not owned
-  std::shared_ptr<const SubdomainMesh> mesh{};   ///< one that meets all bounds; null: it is made from its outline
+  using Lengths = GrowingArray<double, VertexId>;
+
+  const SizeField* size = nullptr;  ///< in place of the bounds'; asked by one thread at a time. Not owned
+  /// Its mesh so far; null: it is made from its outline.
+  std::shared_ptr<const SubdomainMesh> mesh{};
+  const Lengths* lengths = nullptr;              ///< those that `size` has at the vertices of the mesh; not owned
+  std::vector<TriangleId> open{};                ///< triangles of the mesh that may miss their bounds
   std::vector<SplitPoint<GlobalRootId>> told{};  ///< points on its border that the mesh lacks
 };
 

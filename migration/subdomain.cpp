@@ -24,6 +24,17 @@ RefinerState rest_of(const DormantBody& dormant, const Triangulation& mesh, cons
   return state;
 }
 
+/// The state of a refiner that has finished a mesh but for triangles that are still open.
+RefinerState beginning_of(const Beginning& begin) {
+  RefinerState state;
+  state.stage = begin.open.empty() ? RefinerState::Stage::kDone : RefinerState::Stage::kRest;
+  state.next_segment = begin.mesh->mesh.subsegments.next_id();
+  state.sweep.end();
+  for (const TriangleId t : begin.open) state.sweep.visit_again(t);
+  if (begin.lengths != nullptr) state.size = *begin.lengths;
+  return state;
+}
+
 /// Why a mesh does not belong to subdomain i; empty if it does. `label`: its highest region label.
 std::string misfit(const SubdomainMesh& part, std::uint16_t label, const Decomposition& d, SubdomainId i) {
   if (!std::ranges::equal(part.roots, d.roots_of(i))) return "its border differs";
@@ -79,7 +90,7 @@ struct Subdomain::Body {
 Subdomain::Subdomain(SubdomainId id, const SubdomainContext& context) : Work(id), context_(&context) {
   const Beginning* const begin = beginning();
   if (begin == nullptr) return;
-  refined_ = begin->mesh != nullptr;
+  refined_ = begin->mesh != nullptr && begin->open.empty();
   tell(begin->told);
 }
 Subdomain::Subdomain(Subdomain&&) noexcept = default;
@@ -104,6 +115,10 @@ QualityBounds Subdomain::bounds() const {
   QualityBounds bounds = context_->bounds;
   if (const Beginning* const begin = beginning(); begin != nullptr && begin->size != nullptr) bounds.size = begin->size;
   return bounds;
+}
+
+const GrowingArray<double, VertexId>& Subdomain::lengths() const {
+  return body_->refiner.state().size;
 }
 
 const RefineCounters& Subdomain::counters() const {
@@ -269,8 +284,7 @@ void Subdomain::make_body() {
   if (begin != nullptr && begin->mesh) {
     const SubdomainMesh& mesh = *begin->mesh;
     const auto triangles = static_cast<double>(mesh.mesh.live_triangles());
-    body_ = std::make_unique<Body>(SubdomainState::Body{mesh, RefinerState::at_rest(mesh.mesh, bounds()), triangles},
-                                   bounds());
+    body_ = std::make_unique<Body>(SubdomainState::Body{mesh, beginning_of(*begin), triangles}, bounds());
     return;
   }
   body_ = std::make_unique<Body>(subdomain_triangulation(*context_->decomposition, id()), bounds());

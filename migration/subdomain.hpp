@@ -110,6 +110,8 @@ class Subdomain final : public Work {
   [[nodiscard]] bool started() const { return body_ != nullptr || dormant_ != nullptr; }
   /// Gives its mesh away, awake. Only after the first work(); the object can only be destroyed then.
   [[nodiscard]] SubdomainMesh take_mesh();
+  /// The length that the size field asks for at each vertex; empty without one. While mesh() is there.
+  [[nodiscard]] const GrowingArray<double, VertexId>& lengths() const;
   [[nodiscard]] const RefineCounters& counters() const;
 
  private:

@@ -33,6 +33,7 @@ struct AdaptiveOptions {
 struct AdaptReport {
   std::int64_t generation = 0;  ///< 0 before the first call
   std::int32_t kept = 0;        ///< subdomains that are what they were, but for points on their borders
+  std::int32_t mended = 0;      ///< subdomains of which only parts changed
   std::int32_t remade = 0;      ///< subdomains that were made anew
   double scale = 1;             ///< factor on all lengths, for most_triangles
   // Times in seconds.

@@ -26,6 +26,11 @@ TriangleId find_around(const Triangulation& mesh, TriangleId t, VertexId v, cons
   return kNone;
 }
 
+/// A mesh that was mended keeps most of its vertices where they are in memory.
+bool stays_in_place(const Triangulation& old_mesh, const Triangulation& new_mesh, VertexId v) {
+  return old_mesh.points.has(v) && old_mesh.origin[v] != kDeleted && old_mesh.points[v] == new_mesh.points[v];
+}
+
 }  // namespace
 
 Descent trace(const Triangulation& old_mesh, const Triangulation& new_mesh) {
@@ -35,6 +40,10 @@ Descent trace(const Triangulation& old_mesh, const Triangulation& new_mesh) {
   const Locator locator(old_mesh);
   for (const VertexId v : ids_of(new_mesh.points)) {
     if (new_mesh.origin[v] == kDeleted) continue;
+    if (stays_in_place(old_mesh, new_mesh, v)) {
+      descent.sources[v] = {{v, v, v}, {1, 0, 0}, true};
+      continue;
+    }
     const Locator::Place place = locator.locate(new_mesh.points[v]);
     Descent::Source& source = descent.sources[v];
     source.vertex = old_mesh.triangles[place.triangle].vertex;
@@ -51,6 +60,12 @@ Descent trace(const Triangulation& old_mesh, const Triangulation& new_mesh) {
     if (!new_mesh.triangles[t].alive()) continue;
     const auto& v = new_mesh.triangles[t].vertex;
     if (!std::ranges::all_of(v, [&](VertexId w) { return descent.sources[w].stays; })) continue;
+    if (old_mesh.triangles.has(t) && old_mesh.triangles[t].vertex == v &&
+        std::ranges::all_of(v, [&](VertexId w) { return descent.sources[w].vertex[0] == w; })) {
+      descent.same[t] = t;
+      continue;
+    }
+    if (around[v[0]] == kNone) around[v[0]] = locator.locate(new_mesh.points[v[0]]).triangle;
     std::array<VertexId, 3> old{};
     for (int i = 0; i < 3; ++i) old[i] = descent.sources[v[i]].vertex[0];
     descent.same[t] = find_around(old_mesh, around[v[0]], old[0], old);

@@ -15,7 +15,9 @@ namespace driftmesh::adapt {
 /// The mesh of a subdomain in one generation. It never changes: generations share those of subdomains that stay.
 struct Part {
   std::shared_ptr<const SubdomainMesh> mesh;
-  double asked = 0;  ///< triangles that lengths asked of it when it was made (see Demand)
+  double asked = 0;    ///< triangles that lengths asked of it when it was made or mended (see Demand)
+  double density = 0;  ///< triangles that it had for each asked one when it was last made from its outline; 0: unknown
+  std::shared_ptr<const Lengths> made_for{};  ///< lengths by which its vertices were made; null: by none
 };
 using Parts = IdVector<SubdomainId, Part>;
 using LengthsOfParts = IdVector<SubdomainId, Lengths>;

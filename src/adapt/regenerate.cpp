@@ -1,11 +1,13 @@
 #include "adapt/regenerate.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <utility>
 #include <vector>
 
 #include "adapt/agree.hpp"
+#include "adapt/mend.hpp"
 #include "base/in_turns.hpp"
 #include "mesh/size_bound.hpp"
 #include "migration/subdomain.hpp"
@@ -22,6 +24,7 @@ class Side {
     const auto place = std::ranges::lower_bound(part.roots, root);
     root_ = static_cast<RootId>(place - part.roots.begin());
   }
+  [[nodiscard]] RootId root() const { return root_; }
   [[nodiscard]] std::vector<dyadic::Path> has() const { return points_on(part_.mesh, root_); }
   [[nodiscard]] std::vector<dyadic::Path> wants(const Lengths& lengths, double twice_area) const {
     return points_wanted(part_.mesh, root_, lengths, twice_area);
@@ -32,54 +35,104 @@ class Side {
   RootId root_{};
 };
 
-/// The points that interfaces get before refinement. If both sides are made anew, these are the ones that lengths along
-/// the interface ask for; if one of them is kept, these and what it has.
-class Agreement {
+/// What the subdomains of a generation begin with.
+class Beginnings {
  public:
-  Agreement(const RunPlan& plan, const Parts& present, const Wanted& wanted, const IdVector<SubdomainId, Fate>& fates)
-      : decomposition_(plan.decomposition), present_(present), wanted_(wanted), fates_(fates), told_(present.size()) {
-    QualityBounds bounds = plan.bounds;
-    bounds.size = wanted.between;
-    const SizeBounds sizes = bounds;
-    for (const GlobalRootId r : ids_of(decomposition_.roots)) {
-      const Decomposition::Root& root = decomposition_.roots[r];
-      if (root.is_interface() && (is_remade(root.left) || is_remade(root.right))) agree_on(r, bounds, sizes);
-    }
+  Beginnings(const RunPlan& plan, const Parts& present, const Wanted& wanted, const IdVector<SubdomainId, Fate>& fates,
+             std::int32_t threads)
+      : decomposition_(plan.decomposition),
+        bounds_(plan.bounds),
+        present_(present),
+        wanted_(wanted),
+        fates_(fates),
+        keep_(present.size()),
+        fields_(present.size()),
+        beginnings_(present.size()) {
+    bounds_.size = wanted.between;
+    for (const GlobalRootId r : ids_of(decomposition_.roots))
+      if (is_open(r)) want_on(r);
+    in_turns(present.size(), to_index(threads), [&](std::size_t s) { begin(static_cast<SubdomainId>(s)); });
+    for (const GlobalRootId r : ids_of(decomposition_.roots))
+      if (is_open(r)) agree_on(r);
   }
 
-  [[nodiscard]] PresplitPaths take_paths() { return std::move(paths_); }
-  [[nodiscard]] std::vector<SplitPoint<GlobalRootId>> take_told(SubdomainId s) { return std::move(told_[s]); }
+  [[nodiscard]] const IdVector<SubdomainId, Beginning>& all() const { return beginnings_; }
+  /// The points on interfaces for subdomains that begin with their outlines.
+  [[nodiscard]] PresplitPaths take_paths() { return std::move(points_); }
 
  private:
-  [[nodiscard]] bool is_remade(SubdomainId s) const { return fates_[s] == Fate::kRemake; }
+  [[nodiscard]] bool is_open(GlobalRootId r) const {
+    const Decomposition::Root& root = decomposition_.roots[r];
+    return root.is_interface() && (fates_[root.left] != Fate::kKeep || fates_[root.right] != Fate::kKeep);
+  }
 
-  void agree_on(GlobalRootId r, const QualityBounds& bounds, const SizeBounds& sizes) {
+  /// The points that an interface is to have, as a function of the lengths along it. A side that is mended keeps these,
+  /// and beside a side that is kept all that it has.
+  void want_on(GlobalRootId r) {
     const Decomposition::Root& root = decomposition_.roots[r];
     const Side left(*present_[root.left].mesh, r);
-    std::vector<dyadic::Path> points;
+    std::vector<dyadic::Path>& points = points_[r];
     if (wanted_.between != nullptr) {
-      points = presplit_paths(decomposition_, r, bounds);
+      points = presplit_paths(decomposition_, r, bounds_);
       std::ranges::sort(points);
     } else {
+      const SizeBounds sizes = bounds_;
       points = left.wants(wanted_.lengths[root.left],
                           std::min(sizes.twice_area(root.left_region), sizes.twice_area(root.right_region)));
     }
-    const bool one_is_kept = !is_remade(root.left) || !is_remade(root.right);
-    if (one_is_kept) {
-      const std::vector<dyadic::Path> has = left.has();  // as the right side has
-      const SubdomainId kept = is_remade(root.left) ? root.right : root.left;
-      for (const dyadic::Path path : without(points, has)) told_[kept].push_back({r, path});
-      points = united(points, has);
+    const bool one_is_kept = fates_[root.left] == Fate::kKeep || fates_[root.right] == Fate::kKeep;
+    for (const SubdomainId s : {root.left, root.right})
+      if (fates_[s] == Fate::kMend) {
+        const Side side(*present_[s].mesh, r);
+        keep_[s][side.root()] = one_is_kept ? side.has() : points;
+      }
+  }
+
+  void begin(SubdomainId s) {
+    Beginning& beginning = beginnings_[s];
+    if (wanted_.between == nullptr) {
+      fields_[s] = std::make_unique<LinearLengths>(present_[s].mesh->mesh, wanted_.lengths[s]);
+      beginning.size = fields_[s].get();
+    } else {
+      beginning.size = wanted_.between;
     }
-    if (!points.empty()) paths_[r] = std::move(points);
+    if (fates_[s] == Fate::kRemake) return;
+    beginning.mesh = present_[s].mesh;
+    beginning.lengths = &wanted_.lengths[s];
+    if (fates_[s] == Fate::kKeep) return;
+    Mended mended = mend(*present_[s].mesh, *present_[s].made_for, wanted_.lengths[s], bounds_, keep_[s]);
+    beginning.mesh = std::move(mended.mesh);
+    beginning.open = std::move(mended.open);
+  }
+
+  /// It gets the points that it is to have, and those that a side begins with. Sides that lack some are told.
+  void agree_on(GlobalRootId r) {
+    const Decomposition::Root& root = decomposition_.roots[r];
+    std::vector<dyadic::Path>& points = points_[r];
+    const std::array<SubdomainId, 2> sides{root.left, root.right};
+    std::array<std::vector<dyadic::Path>, 2> had;
+    for (const std::size_t i : {0, 1}) {
+      if (!beginnings_[sides[i]].mesh) continue;
+      had[i] = Side(*beginnings_[sides[i]].mesh, r).has();
+      points = united(points, had[i]);
+    }
+    for (const std::size_t i : {0, 1}) {
+      Beginning& beginning = beginnings_[sides[i]];
+      if (!beginning.mesh) continue;
+      for (const dyadic::Path path : without(points, had[i])) beginning.told.push_back({r, path});
+    }
+    if (points.empty()) points_.erase(r);
   }
 
   const Decomposition& decomposition_;
+  QualityBounds bounds_;
   const Parts& present_;
   const Wanted& wanted_;
   const IdVector<SubdomainId, Fate>& fates_;
-  PresplitPaths paths_;
-  IdVector<SubdomainId, std::vector<SplitPoint<GlobalRootId>>> told_;
+  IdVector<SubdomainId, PointsToKeep> keep_;
+  IdVector<SubdomainId, std::unique_ptr<LinearLengths>> fields_;
+  PresplitPaths points_;
+  IdVector<SubdomainId, Beginning> beginnings_;
 };
 
 /// Gives subdomains to threads in blocks of about equal work. Which thread has which changes nothing but time.
@@ -94,40 +147,62 @@ void deal(RunPlan& plan, std::int32_t threads) {
   plan.layout = plan.policy ? layout_of(plan, threads) : nullptr;
 }
 
+double work_in(const Demand& demand, Fate fate) {
+  if (fate == Fate::kKeep) return 0;
+  return fate == Fate::kMend ? demand.changes : demand.triangles;
+}
+
 RunPlan plan_of_generation(const RunPlan& first, const IdVector<SubdomainId, Demand>& demands,
                            const IdVector<SubdomainId, Fate>& fates, std::int32_t threads) {
   RunPlan plan = first;
-  for (const SubdomainId s : ids_of(fates))
-    plan.decomposition.subdomains[s].predicted = fates[s] == Fate::kKeep ? 0 : demands[s].triangles;
+  for (const SubdomainId s : ids_of(fates)) plan.decomposition.subdomains[s].predicted = work_in(demands[s], fates[s]);
   plan.work.sleep = false;
   plan.presplit = true;
   deal(plan, threads);
   return plan;
 }
 
+/// The lengths by which vertices were made, of a mesh that began as another one with the same numbers: for those that
+/// are still there the ones by which they were, unless lengths have changed so far that they have been reconsidered.
+Lengths lengths_of_making(const Triangulation& mesh, const Lengths& lengths, const Triangulation& before,
+                          const Lengths& made_for, bool reconsidered) {
+  Lengths all = lengths;
+  for (const VertexId v : ids_of(before.points)) {
+    if (before.origin[v] == kDeleted || mesh.origin[v] == kDeleted || !(before.points[v] == mesh.points[v])) continue;
+    const bool has_changed = lengths[v] < made_for[v] || (reconsidered && lengths[v] > kGrown * made_for[v]);
+    if (!has_changed) all[v] = made_for[v];
+  }
+  return all;
+}
+
+/// Mending takes out what is much too dense and leaves what is a little too dense, which adds up.
+bool is_too_dense(const Part& part) {
+  constexpr double kDense = 1.1;
+  return part.density > 0 && static_cast<double>(part.mesh->mesh.live_triangles()) > kDense * part.density * part.asked;
+}
+
+/// Memory in which less than half of the slots is in use is slow to work in.
+bool is_worn(const Triangulation& mesh) {
+  return mesh.free_triangles.size() > mesh.live_triangles();
+}
+
 }  // namespace
 
 Fate fate_of(const Part& part, const Demand& demand, double coarsening) {
-  return demand.too_large || demand.triangles < (1 - coarsening) * part.asked ? Fate::kRemake : Fate::kKeep;
+  if (is_too_dense(part)) return Fate::kRemake;
+  if (!demand.too_large && demand.triangles >= (1 - coarsening) * part.asked) return Fate::kKeep;
+  const Triangulation& mesh = part.mesh->mesh;
+  const double triangles = std::max(demand.triangles, static_cast<double>(mesh.live_triangles()));
+  return part.made_for && demand.changes < triangles / 2 && !is_worn(mesh) ? Fate::kMend : Fate::kRemake;
 }
 
 Parts regenerate(const RunPlan& first, const Parts& present, const Wanted& wanted,
                  const IdVector<SubdomainId, Demand>& demands, const IdVector<SubdomainId, Fate>& fates,
                  std::int32_t threads, const Hooks& hooks) {
   RunPlan plan = plan_of_generation(first, demands, fates, threads);
-  Agreement agreement(plan, present, wanted, fates);
-  plan.presplit_paths = std::make_shared<const PresplitPaths>(agreement.take_paths());
-
-  std::vector<std::unique_ptr<LinearLengths>> fields;
-  IdVector<SubdomainId, Beginning> beginnings(present.size());
-  for (const SubdomainId s : ids_of(present)) {
-    if (wanted.between == nullptr)
-      fields.push_back(std::make_unique<LinearLengths>(present[s].mesh->mesh, wanted.lengths[s]));
-    beginnings[s].size = wanted.between == nullptr ? fields.back().get() : wanted.between;
-    if (fates[s] == Fate::kKeep) beginnings[s].mesh = present[s].mesh;
-    beginnings[s].told = agreement.take_told(s);
-  }
-  plan.beginnings = &beginnings;
+  Beginnings beginnings(plan, present, wanted, fates, threads);
+  plan.beginnings = &beginnings.all();
+  plan.presplit_paths = std::make_shared<const PresplitPaths>(beginnings.take_paths());
 
   const double forecast = forecast_of(plan);
   RefinementInRounds::Watch watch{.check = hooks.check};
@@ -137,8 +212,20 @@ Parts regenerate(const RunPlan& first, const Parts& present, const Wanted& wante
 
   Parts parts = present;
   for (auto& [s, subdomain] : rounds.subdomains()) {
-    if (subdomain.started()) parts[s].mesh = std::make_shared<const SubdomainMesh>(subdomain.take_mesh());
-    if (fates[s] == Fate::kRemake) parts[s].asked = demands[s].triangles;
+    Part& part = parts[s];
+    if (fates[s] != Fate::kKeep) part.asked = demands[s].triangles;
+    const std::shared_ptr<const SubdomainMesh>& begun = beginnings.all()[s].mesh;
+    if (!subdomain.started()) {  // nothing was left to do
+      part.mesh = begun;
+      continue;
+    }
+    Lengths lengths = subdomain.lengths();
+    part.mesh = std::make_shared<const SubdomainMesh>(subdomain.take_mesh());
+    if (begun && present[s].made_for)
+      lengths = lengths_of_making(part.mesh->mesh, lengths, begun->mesh, *present[s].made_for, fates[s] == Fate::kMend);
+    part.made_for = std::make_shared<const Lengths>(std::move(lengths));
+    if (fates[s] == Fate::kRemake)
+      part.density = part.asked > 0 ? static_cast<double>(part.mesh->mesh.live_triangles()) / part.asked : 0;
   }
   return parts;
 }

@@ -15,11 +15,12 @@ namespace driftmesh::adapt {
 /// What becomes of a subdomain.
 enum class Fate : std::uint8_t {
   kKeep,    ///< it stays as it is, but for points that neighbors put on common borders
+  kMend,    ///< only what has to change changes
   kRemake,  ///< it is made anew from its outline
 };
 
 /// A subdomain is kept if no triangle is too large, and lengths do not ask for fewer triangles than those by which it
-/// was made, by this fraction.
+/// was made, by this fraction. It is mended if less than half of it changes.
 [[nodiscard]] Fate fate_of(const Part& part, const Demand& demand, double coarsening);
 
 /// What happens meanwhile; may be empty. Exceptions end the work.

@@ -50,9 +50,11 @@ Session::Session(Start start, const AdaptiveOptions& options, std::function<void
   require_sound(options);
   Parts parts;
   for (const SubdomainId s : ids_of(start.parts)) {
-    const double asked =
-        demand_of(start.parts[s].mesh, plan_.bounds, start.lengths.empty() ? Lengths() : start.lengths[s]).triangles;
-    parts.push_back({std::make_shared<const SubdomainMesh>(std::move(start.parts[s])), asked});
+    Part& part = parts.emplace_back();
+    part.mesh = std::make_shared<const SubdomainMesh>(std::move(start.parts[s]));
+    if (!start.lengths.empty()) part.made_for = std::make_shared<const Lengths>(std::move(start.lengths[s]));
+    part.asked = demand_of(part.mesh->mesh, plan_.bounds, part.made_for ? *part.made_for : Lengths()).triangles;
+    if (part.asked > 0) part.density = static_cast<double>(part.mesh->mesh.live_triangles()) / part.asked;
   }
   present_ = assemble(plan_.decomposition, pslg_, std::move(parts));
   finish_(present_.piece.mesh);
@@ -76,12 +78,13 @@ void Session::advance(const std::function<Wanted()>& want, std::int32_t threads,
   IdVector<SubdomainId, Demand> demands(present_.parts.size());
   in_turns(demands.size(), to_index(threads), [&](std::size_t i) {
     const auto s = static_cast<SubdomainId>(i);
-    demands[s] = demand_of(present_.parts[s].mesh->mesh, plan_.bounds, wanted.lengths[s], wanted.between);
+    const Part& part = present_.parts[s];
+    demands[s] = demand_of(part.mesh->mesh, plan_.bounds, wanted.lengths[s], wanted.between, part.made_for.get());
   });
   IdVector<SubdomainId, Fate> fates;
   for (const SubdomainId s : ids_of(demands)) {
     fates.push_back(fate_of(present_.parts[s], demands[s], options_.coarsening));
-    ++(fates[s] == Fate::kKeep ? report.kept : report.remade);
+    ++(fates[s] == Fate::kKeep ? report.kept : fates[s] == Fate::kMend ? report.mended : report.remade);
   }
   report.lengths = stage.seconds();
 

@@ -38,6 +38,23 @@ Star star_around_apex(const Triangulation& mesh, HalfEdge h) {
   return star;
 }
 
+/// The part of the star of a midpoint on one side of its subsegment `whole`, from the half-edge that leaves it along
+/// the subsegment. The last side is the subsegment itself.
+Star star_beside(const Triangulation& mesh, HalfEdge h, SubsegmentId whole) {
+  Star star;
+  for (;;) {
+    const TriangleId t = triangle_of(h);
+    star.sides.push_back({mesh.edge_end(h), mesh.twin(half_edge(t, next(index_of(h))))});
+    star.slots.push_back(t);
+    const HalfEdge across = mesh.twin(half_edge(t, previous(index_of(h))));
+    if (is_constrained(across)) {
+      star.sides.push_back({mesh.apex(h), constrained(whole)});
+      return star;
+    }
+    h = across;
+  }
+}
+
 /// The polygon of a star while corners are cut off it.
 using Polygon = std::vector<VertexId>;
 
@@ -96,6 +113,32 @@ bool plan_ears(const Triangulation& mesh, const Star& star, VertexId center, std
   return orient2d(point(mesh, polygon[0]), point(mesh, polygon[1]), point(mesh, polygon[2])) > 0;
 }
 
+/// Fills a star as planned. Appends edges that may not be Delaunay to `pending`.
+void fill_star(Triangulation& mesh, Star& star, const std::vector<std::size_t>& ears, std::vector<HalfEdge>& pending,
+               std::vector<TriangleId>& changed) {
+  std::vector<Star::Side>& sides = star.sides;
+  std::size_t used = 0;
+  // Places the triangle over two consecutive sides and returns its third edge.
+  const auto place = [&](const Star::Side& ab, const Star::Side& bc, VertexId c) {
+    const TriangleId t = star.slots[used++];
+    mesh.triangles[t].vertex = {ab.from, bc.from, c};
+    mesh.link(half_edge(t, 2), ab.outer);
+    mesh.link(half_edge(t, 0), bc.outer);
+    changed.push_back(t);
+    return half_edge(t, 1);
+  };
+  for (const std::size_t i : ears) {
+    const std::size_t n = sides.size();
+    const std::size_t before = (i + n - 1) % n;
+    const HalfEdge cut = place(sides[before], sides[i], sides[(i + 1) % n].from);
+    pending.push_back(cut);
+    sides[before].outer = cut;
+    sides.erase(sides.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  mesh.link(place(sides[0], sides[1], sides[2].from), sides[2].outer);
+  for (; used < star.slots.size(); ++used) mesh.remove_triangle(star.slots[used]);
+}
+
 }  // namespace
 
 bool is_flippable(const Triangulation& mesh, HalfEdge h) {
@@ -145,28 +188,32 @@ bool remove_vertex(Triangulation& mesh, HalfEdge h, std::vector<TriangleId>& cha
   std::vector<std::size_t> ears;
   if (!plan_ears(mesh, star, center, ears)) return false;
 
-  std::vector<Star::Side>& sides = star.sides;
   std::vector<HalfEdge> pending;
-  std::size_t used = 0;
-  // Places the triangle over two consecutive sides and returns its third edge.
-  const auto place = [&](const Star::Side& ab, const Star::Side& bc, VertexId c) {
-    const TriangleId t = star.slots[used++];
-    mesh.triangles[t].vertex = {ab.from, bc.from, c};
-    mesh.link(half_edge(t, 2), ab.outer);
-    mesh.link(half_edge(t, 0), bc.outer);
-    changed.push_back(t);
-    return half_edge(t, 1);
+  fill_star(mesh, star, ears, pending, changed);
+  mesh.remove_vertex(center);
+  legalize(mesh, pending, changed);
+  return true;
+}
+
+bool undo_midpoint(Triangulation& mesh, SubsegmentId s, std::vector<TriangleId>& changed) {
+  const Subsegment &first = mesh.subsegments[mesh.subsegments[s].child],
+                   &second = mesh.subsegments[mesh.subsegments[s].second_child()];
+  const VertexId center = first.vertex[1];
+  struct Planned {
+    Star star;
+    std::vector<std::size_t> ears;
   };
-  for (const std::size_t i : ears) {
-    const std::size_t n = sides.size();
-    const std::size_t before = (i + n - 1) % n;
-    const HalfEdge cut = place(sides[before], sides[i], sides[(i + 1) % n].from);
-    pending.push_back(cut);
-    sides[before].outer = cut;
-    sides.erase(sides.begin() + static_cast<std::ptrdiff_t>(i));
+  std::vector<Planned> sides;
+  for (const HalfEdge leaving : {second.half[0], first.half[1]}) {
+    if (leaving == kNone) continue;
+    Planned& side = sides.emplace_back();
+    side.star = star_beside(mesh, leaving, s);
+    if (side.star.sides.size() < 3 || !plan_ears(mesh, side.star, center, side.ears)) return false;
   }
-  mesh.link(place(sides[0], sides[1], sides[2].from), sides[2].outer);
-  for (; used < star.slots.size(); ++used) mesh.remove_triangle(star.slots[used]);
+  mesh.subsegments[s].child = kNone;
+  mesh.subsegments[s].half = {kNone, kNone};
+  std::vector<HalfEdge> pending;
+  for (Planned& side : sides) fill_star(mesh, side.star, side.ears, pending, changed);
   mesh.remove_vertex(center);
   legalize(mesh, pending, changed);
   return true;

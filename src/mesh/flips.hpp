@@ -23,4 +23,9 @@ void legalize(Triangulation& mesh, std::vector<HalfEdge>& pending, std::vector<T
 /// bend by an ulp at their midpoints) has left a star that cannot be filled.
 bool remove_vertex(Triangulation& mesh, HalfEdge h, std::vector<TriangleId>& changed);
 
+/// Undoes the split of a subsegment, the halves of which are leaves: deletes its midpoint, makes it a leaf again, and
+/// fills both sides with Delaunay triangles. The slots of the halves remain, unused, until drop_unused_subsegments
+/// (renumber.hpp). The rest as for remove_vertex.
+bool undo_midpoint(Triangulation& mesh, SubsegmentId s, std::vector<TriangleId>& changed);
+
 }  // namespace driftmesh

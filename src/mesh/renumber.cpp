@@ -127,4 +127,33 @@ void compact(Triangulation& mesh) {
   rebuild_in_order(mesh, live_triangles(mesh), GivenVertices::kSorted);
 }
 
+void drop_unused_subsegments(Triangulation& mesh) {
+  IdVector<SubsegmentId, bool> used(mesh.subsegments.size(), false);
+  for (const RootSegment& root : mesh.roots) used[root.tree] = true;
+  for (const SubsegmentId s : ids_of(mesh.subsegments)) {  // children follow their parents
+    const Subsegment& node = mesh.subsegments[s];
+    if (used[s] && !node.is_leaf()) used[node.child] = used[node.second_child()] = true;
+  }
+  IdVector<SubsegmentId, SubsegmentId> moved(mesh.subsegments.size(), kNone);
+  SubsegmentId next_slot{0};
+  for (const SubsegmentId s : ids_of(used)) {
+    if (!used[s]) continue;
+    mesh.subsegments[next_slot] = mesh.subsegments[s];
+    moved[s] = next_slot;
+    next_slot = after(next_slot);
+  }
+  mesh.subsegments.resize(to_index(next_slot));
+  for (RootSegment& root : mesh.roots) root.tree = moved[root.tree];
+  for (const SubsegmentId s : ids_of(mesh.subsegments)) {
+    Subsegment& node = mesh.subsegments[s];
+    if (!node.is_leaf()) {
+      node.child = moved[node.child];
+      mesh.origin[mesh.subsegments[node.child].vertex[1]] = midpoint_of(s);
+      continue;
+    }
+    for (const HalfEdge h : node.half)
+      if (h != kNone) mesh.triangles[triangle_of(h)].neighbor[index_of(h)] = constrained(s);
+  }
+}
+
 }  // namespace driftmesh

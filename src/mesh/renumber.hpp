@@ -18,4 +18,7 @@ void renumber(Triangulation& mesh, GivenVertices given);
 /// Drops free slots and unused vertices, keeping the order of the rest.
 void compact(Triangulation& mesh);
 
+/// Drops the slots of subsegments that undo_midpoint (flips.hpp) has left, keeping the order of the rest.
+void drop_unused_subsegments(Triangulation& mesh);
+
 }  // namespace driftmesh
