@@ -29,6 +29,24 @@ struct AdaptiveOptions {
   double most_triangles = 0;
 };
 
+/// Where a field has values.
+enum class FieldPlace : std::uint8_t {
+  kPoints,     ///< linear between them
+  kTriangles,  ///< constant in each
+  kCorners,    ///< linear in each triangle, with three values of its own
+};
+
+/// How a field gets to the next mesh. Where the mesh is the same, values keep their bits: at points, at points all of
+/// whose triangles stay, in triangles.
+enum class Transfer : std::uint8_t {
+  kInterpolate,  ///< linearly; only at points, where one that stays keeps its bits whatever is around it
+  /// The integral stays the same but for rounding (1e-12 of that of the absolute values). At triangles and corners,
+  /// each gets its part of those that it overlaps; at points, interpolation is brought as close to the lumped
+  /// projection as that takes, which leaves a linear field what it is. In all cases no value exceeds those that it
+  /// comes from.
+  kConserve,
+};
+
 /// What a call of adapt() did.
 struct AdaptReport {
   std::int64_t generation = 0;  ///< 0 before the first call
@@ -92,10 +110,11 @@ class AdaptiveMesh {
   [[nodiscard]] std::vector<double> lengths_from_error(std::span<const double> indicators, double target,
                                                        double order = 1) const;
 
-  /// Adds a field with the same number of values at each point, point by point, that adapt() carries along: linear
-  /// interpolation; a point that stays keeps its bits. Replaces a field of that name. Throws Error if the number of
-  /// values is no multiple of that of points.
-  void attach(const std::string& name, std::vector<double> values);
+  /// Adds a field with the same number of values at each place, place by place, that adapt() carries along. Replaces a
+  /// field of that name. Throws Error if the number of values is no multiple of that of places, and for interpolation
+  /// at triangles or corners.
+  void attach(const std::string& name, std::vector<double> values, FieldPlace place = FieldPlace::kPoints,
+              Transfer how = Transfer::kInterpolate);
   /// Throws Error if there is no such field.
   void detach(const std::string& name);
   /// The values of a field on the present mesh, to be read and changed; valid until the next call of adapt() or

@@ -56,19 +56,33 @@ std::vector<std::int32_t> Lineage::stayed_points() const {
   return stayed;
 }
 
-std::vector<std::int32_t> Lineage::stayed_triangles() const {
-  std::vector<std::int32_t> stayed(after_.piece.mesh.triangles.size(), -1);
+void Lineage::visit_parts(const std::function<void(SubdomainId, const Change&)>& visit) const {
   for_each_part([&](SubdomainId s) {
-    const Triangulation& mesh = after_.parts[s].mesh->mesh;
-    const auto old = numbers_of_triangles(before_.parts[s].mesh->mesh, before_.first_triangle[s]);
-    std::int32_t number = after_.first_triangle[s];
-    for (const TriangleId t : ids_of(mesh.triangles)) {
-      if (!mesh.triangles[t].alive()) continue;
-      const TriangleId from = is_the_same(s) ? t : descents_[s].same[t];
-      if (from != kNone) stayed[to_index(number)] = old[from];
-      ++number;
+    const Triangulation &old_mesh = before_.parts[s].mesh->mesh, &new_mesh = after_.parts[s].mesh->mesh;
+    visit(s, {is_the_same(s), old_mesh, new_mesh, descents_[s].same,
+              numbers_of_triangles(old_mesh, before_.first_triangle[s]),
+              numbers_of_triangles(new_mesh, after_.first_triangle[s]), before_.places[s], after_.places[s]});
+  });
+}
+
+void Lineage::visit_same_triangles(const std::function<void(std::int32_t, std::int32_t, int)>& visit) const {
+  visit_parts([&](SubdomainId s, const Change& change) {
+    for (const TriangleId t : ids_of(change.new_number)) {
+      if (change.new_number[t] == kNone) continue;
+      const TriangleId from = change.is_the_same ? t : change.same[t];
+      if (from == kNone) continue;
+      const VertexId v = change.new_mesh.triangles[t].vertex[0];
+      const VertexId first = change.is_the_same ? v : descents_[s].sources[v].vertex[0];
+      const auto& corners = change.old_mesh.triangles[from].vertex;
+      visit(change.new_number[t], change.old_number[from], corners[0] == first ? 0 : corners[1] == first ? 1 : 2);
     }
   });
+}
+
+std::vector<std::int32_t> Lineage::stayed_triangles() const {
+  std::vector<std::int32_t> stayed(new_triangles(), -1);
+  visit_same_triangles(
+      [&](std::int32_t triangle, std::int32_t old, int /*turn*/) { stayed[to_index(triangle)] = old; });
   return stayed;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -14,6 +16,10 @@ class Lineage {
  public:
   Lineage(const Generation& before, const Generation& after, std::int32_t threads);
 
+  [[nodiscard]] std::size_t subdomains() const { return after_.parts.size(); }
+  [[nodiscard]] std::size_t new_points() const { return after_.piece.mesh.points.size(); }
+  [[nodiscard]] std::size_t new_triangles() const { return after_.piece.mesh.triangles.size(); }
+
   /// A point of the new mesh as a convex combination of points of the old one.
   struct Source {
     std::array<std::int32_t, 3> point{};
@@ -23,6 +29,27 @@ class Lineage {
   /// Calls visit(point, source) for each point of the new mesh, for several at once. That a border divides two
   /// subdomains does not matter: a point on it is one of the subdomain with the lower number.
   void visit_points(const std::function<void(std::int32_t, const Source&)>& visit) const;
+  /// Calls visit(triangle, old, turn) for each triangle that is one of the old mesh, for several at once: its corner i
+  /// is corner i + turn (modulo 3) of the old one.
+  void visit_same_triangles(const std::function<void(std::int32_t, std::int32_t, int)>& visit) const;
+
+  /// The old and the new mesh of one subdomain.
+  struct Change {
+    bool is_the_same = false;
+    const Triangulation& old_mesh;
+    const Triangulation& new_mesh;
+    const IdVector<TriangleId, TriangleId>& same;   ///< see Descent; empty if the meshes are the same
+    IdVector<TriangleId, std::int32_t> old_number;  ///< of each triangle in the whole mesh
+    IdVector<TriangleId, std::int32_t> new_number;
+    const IdVector<VertexId, std::int32_t>& old_place;  ///< of each vertex among all points
+    const IdVector<VertexId, std::int32_t>& new_place;
+  };
+  /// Calls visit for each subdomain, for several at once.
+  void visit_parts(const std::function<void(SubdomainId, const Change&)>& visit) const;
+  /// The old point at a vertex that stays.
+  [[nodiscard]] std::int32_t old_point_of(SubdomainId s, VertexId v) const {
+    return before_.places[s][is_the_same(s) ? v : descents_[s].sources[v].vertex[0]];
+  }
 
   /// For each point, or triangle, of the new mesh its number in the old one; -1: it is not there.
   [[nodiscard]] std::vector<std::int32_t> stayed_points() const;

@@ -26,23 +26,6 @@ void require_sound(const AdaptiveOptions& options) {
   require(options.most_triangles >= 0, "most_triangles", options.most_triangles, "at least 0");
 }
 
-/// Linear interpolation; a point that stays keeps the bits of its values.
-std::vector<double> interpolated(const Lineage& lineage, const std::vector<double>& old, std::size_t components,
-                                 std::size_t points) {
-  std::vector<double> values(points * components);
-  lineage.visit_points([&](std::int32_t point, const Lineage::Source& from) {
-    for (std::size_t k = 0; k < components; ++k) {
-      const auto at = [&](int i) { return old[to_index(from.point[i]) * components + k]; };
-      double& value = values[to_index(point) * components + k];
-      value = at(0);
-      if (from.stays) continue;
-      const auto [least, most] = std::minmax({at(0), at(1), at(2)});
-      value = std::clamp(from.weight[0] * at(0) + from.weight[1] * at(1) + from.weight[2] * at(2), least, most);
-    }
-  });
-  return values;
-}
-
 }  // namespace
 
 Session::Session(Start start, const AdaptiveOptions& options, std::function<void(Mesh&)> finish)
@@ -100,10 +83,7 @@ void Session::advance(const std::function<Wanted()>& want, std::int32_t threads,
   stage = {};
   const Lineage lineage(present_, next, threads);
   std::vector<std::int32_t> points = lineage.stayed_points(), triangles = lineage.stayed_triangles();
-  std::map<std::string, std::vector<double>> fields;
-  const std::size_t before = mesh().points.size(), after = next.piece.mesh.points.size();
-  for (const auto& [name, values] : fields_)
-    fields[name] = interpolated(lineage, values, values.size() / before, after);
+  Fields fields = carried(fields_, lineage);
   report.transfer = stage.seconds();
 
   present_ = std::move(next);
@@ -114,15 +94,11 @@ void Session::advance(const std::function<Wanted()>& want, std::int32_t threads,
   report_ = report;
 }
 
-void Session::attach(const std::string& name, std::vector<double> values) {
-  const std::size_t points = mesh().points.size();
-  if (values.empty() || values.size() % points != 0)
-    throw Error("attach: field '" + name + "' has " + std::to_string(values.size()) + " values for " +
-                std::to_string(points) + " points; give the same number for each point of the present mesh");
-  fields_[name] = std::move(values);
+void Session::attach(const std::string& name, std::vector<double> values, FieldPlace place, Transfer how) {
+  fields_[name] = make_field(mesh(), name, std::move(values), place, how);
 }
 
-std::vector<double>& Session::find_field(const std::string& name) {
+Field& Session::find_field(const std::string& name) {
   const auto found = fields_.find(name);
   if (found == fields_.end()) throw Error("there is no field '" + name + "'; attach it first");
   return found->second;
@@ -134,7 +110,7 @@ void Session::detach(const std::string& name) {
 }
 
 std::span<double> Session::field(const std::string& name) {
-  return find_field(name);
+  return find_field(name).values;
 }
 
 }  // namespace driftmesh::adapt

@@ -2,11 +2,11 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "adapt/fields.hpp"
 #include "adapt/fit_lengths.hpp"
 #include "adapt/generation.hpp"
 #include "adapt/regenerate.hpp"
@@ -42,13 +42,13 @@ class Session {
   void adapt(std::span<const double> lengths, std::int32_t threads, const Hooks& hooks);
   void adapt(const SizeField& size, std::int32_t threads, const Hooks& hooks);
 
-  void attach(const std::string& name, std::vector<double> values);
+  void attach(const std::string& name, std::vector<double> values, FieldPlace place, Transfer how);
   void detach(const std::string& name);
   [[nodiscard]] std::span<double> field(const std::string& name);
 
  private:
   void advance(const std::function<Wanted()>& want, std::int32_t threads, const Hooks& hooks);
-  [[nodiscard]] std::vector<double>& find_field(const std::string& name);
+  [[nodiscard]] Field& find_field(const std::string& name);
 
   RunPlan plan_;
   Pslg pslg_;
@@ -57,7 +57,7 @@ class Session {
   Generation present_;
   AdaptReport report_;
   std::vector<std::int32_t> stayed_points_, stayed_triangles_;
-  std::map<std::string, std::vector<double>> fields_;
+  Fields fields_;
 };
 
 }  // namespace driftmesh::adapt

@@ -102,8 +102,8 @@ std::vector<double> AdaptiveMesh::lengths_from_error(std::span<const double> ind
   return adapt::lengths_from_error(mesh(), indicators, target, order);
 }
 
-void AdaptiveMesh::attach(const std::string& name, std::vector<double> values) {
-  impl_->session->attach(name, std::move(values));
+void AdaptiveMesh::attach(const std::string& name, std::vector<double> values, FieldPlace place, Transfer how) {
+  impl_->session->attach(name, std::move(values), place, how);
 }
 
 void AdaptiveMesh::detach(const std::string& name) {

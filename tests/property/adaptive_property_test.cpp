@@ -175,7 +175,8 @@ TEST_CASE("generations do not depend on the number of threads") {
     AdaptiveMesh first(square(), {.max_area = 2e-3, .threads = 1});
     AdaptiveMesh many(square(), {.max_area = 2e-3, .threads = threads});
     for (AdaptiveMesh* mesh : {&first, &many})
-      mesh->attach("u", at_points(mesh->mesh(), [](const Point& p) { return std::sin(9 * p.x) * p.y; }));
+      mesh->attach("u", at_points(mesh->mesh(), [](const Point& p) { return std::sin(9 * p.x) * p.y; }),
+                   FieldPlace::kPoints, Transfer::kConserve);
     for (int g = 1; g <= 5; ++g) {
       CAPTURE(g);
       for (AdaptiveMesh* mesh : {&first, &many})
@@ -184,6 +185,96 @@ TEST_CASE("generations do not depend on the number of threads") {
       CHECK(std::ranges::equal(many.field("u"), first.field("u")));
       CHECK(many.stayed_points() == first.stayed_points());
       CHECK(many.stayed_triangles() == first.stayed_triangles());
+    }
+  }
+}
+
+namespace {
+
+double area_of(const Mesh& mesh, std::size_t t) {
+  const Point &p = mesh.points[mesh.triangles[t][0]], &q = mesh.points[mesh.triangles[t][1]],
+              &r = mesh.points[mesh.triangles[t][2]];
+  return ((q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x)) / 2;
+}
+
+/// Integrals of a field and of its absolute values, and its range.
+struct Summary {
+  long double integral = 0, absolute = 0;
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+};
+
+Summary summary_of(const Mesh& mesh, FieldPlace place, std::span<const double> values) {
+  Summary summary;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double value = place == FieldPlace::kPoints      ? values[mesh.triangles[t][i]]
+                           : place == FieldPlace::kTriangles ? values[t]
+                                                             : values[3 * t + i];
+      summary.integral += area_of(mesh, t) / 3 * value;
+      summary.absolute += area_of(mesh, t) / 3 * std::fabs(value);
+      summary.least = std::min(summary.least, value);
+      summary.most = std::max(summary.most, value);
+    }
+  return summary;
+}
+
+}  // namespace
+
+TEST_CASE("conserving transfer keeps integrals, bounds and constants") {
+  for (int seed = 1; seed <= 8 / kFewer; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    const Pslg input =
+        seed == 1 ? testing::varied_domain() : oracles::make_random_pslg(seed, oracles::make_random_shape(seed)).input;
+    AdaptiveMesh mesh(input, {.triangles = 800, .threads = 1 + seed % 2});
+    const Box box = box_of(mesh.mesh());
+    const Front front(random, box);
+    const std::size_t points = mesh.mesh().points.size(), triangles = mesh.mesh().triangles.size();
+    const auto noise = [&](std::size_t count) {
+      std::vector<double> values(count);
+      for (double& value : values) value = uniform(random, -1, 1);
+      return values;
+    };
+    const auto plane = [&](const Point& p) {
+      return (p.x - box.low.x) / (box.high.x - box.low.x) - 2 * (p.y - box.low.y) / (box.high.y - box.low.y);
+    };
+    mesh.attach("points", noise(points), FieldPlace::kPoints, Transfer::kConserve);
+    mesh.attach("triangles", noise(triangles), FieldPlace::kTriangles, Transfer::kConserve);
+    mesh.attach("corners", noise(3 * triangles), FieldPlace::kCorners, Transfer::kConserve);
+    mesh.attach("plane", at_points(mesh.mesh(), plane), FieldPlace::kPoints, Transfer::kConserve);
+    mesh.attach("one", std::vector<double>(triangles, 1), FieldPlace::kTriangles, Transfer::kConserve);
+    mesh.attach("ones", std::vector<double>(3 * triangles, 1), FieldPlace::kCorners, Transfer::kConserve);
+    const std::vector<std::pair<const char*, FieldPlace>> noisy{
+        {"points", FieldPlace::kPoints}, {"triangles", FieldPlace::kTriangles}, {"corners", FieldPlace::kCorners}};
+    for (int generation = 1; generation <= 10; ++generation) {
+      CAPTURE(generation);
+      const Mesh before = mesh.mesh();
+      std::vector<Summary> old;
+      for (const auto& [name, place] : noisy) old.push_back(summary_of(before, place, mesh.field(name)));
+      const std::vector<double> last(mesh.field("triangles").begin(), mesh.field("triangles").end());
+      mesh.adapt(at_points(before, [&](const Point& p) { return front.length(p, generation); }));
+      for (std::size_t k = 0; k < noisy.size(); ++k) {
+        CAPTURE(noisy[k].first);
+        const Summary now = summary_of(mesh.mesh(), noisy[k].second, mesh.field(noisy[k].first));
+        CHECK(std::fabs(static_cast<double>(now.integral - old[k].integral)) <
+              1e-12 * static_cast<double>(old[k].absolute));
+        CHECK(now.least > old[k].least - 1e-9);
+        CHECK(now.most < old[k].most + 1e-9);
+      }
+      double worst = 0;
+      for (std::size_t i = 0; i < mesh.mesh().points.size(); ++i)
+        worst = std::max(worst, std::fabs(mesh.field("plane")[i] - plane(mesh.mesh().points[i])));
+      CHECK(worst < 1e-11);
+      for (const char* const name : {"one", "ones"}) {
+        const auto [least, most] = std::ranges::minmax(mesh.field(name));
+        CHECK(least > 1 - 1e-9);
+        CHECK(most < 1 + 1e-9);
+      }
+      std::size_t changed = 0;
+      for (std::size_t t = 0; t < mesh.mesh().triangles.size(); ++t)
+        if (const std::int32_t from = mesh.stayed_triangles()[t]; from >= 0)
+          changed += mesh.field("triangles")[t] != last[from];
+      CHECK(changed == 0);
     }
   }
 }
@@ -261,6 +352,9 @@ TEST_CASE("wrong use is one clear error, and changes nothing") {
   }
   CHECK(mentions(error_text([&] { mesh.attach("u", std::vector<double>(points + 1)); }),
                  {"'u'", "the same number for each"}));
+  CHECK(mentions(
+      error_text([&] { mesh.attach("u", std::vector<double>(mesh.mesh().triangles.size()), FieldPlace::kTriangles); }),
+      {"'u'", "not interpolated"}));
   CHECK(mentions(error_text([&] { (void)mesh.field("v"); }), "no field 'v'"));
   CHECK(mentions(error_text([&] { mesh.detach("v"); }), "no field 'v'"));
   CHECK(mentions(error_text([&] { AdaptiveMesh(square(), {}, {.gradation = -1}); }), "gradation"));
@@ -316,7 +410,8 @@ TEST_CASE("a front that moves to and fro leaves no trace") {
     REQUIRE(report.accepted);
     check_stayed(before, mesh);
     check_all_found(before, mesh);
-    const MeshOptions fresh{.size = [&](const Point& p) { return judge->edge_length(p); }, .threads = 1};
+    const MeshOptions fresh{
+        .size = [&](const Point& p) { return judge->edge_length(p); }, .size_resolution = 100, .threads = 1};
     const auto expected = static_cast<double>(AdaptiveMesh(square(), fresh).mesh().triangles.size());
     CHECK(static_cast<double>(mesh.mesh().triangles.size()) < 1.03 * expected);
     CHECK(static_cast<double>(mesh.mesh().triangles.size()) > 0.97 * expected);
