@@ -25,6 +25,9 @@ void add_report_class(py::module_& module) {
       .def_readonly("smallest_angle", &CheckReport::smallest_angle, "In degrees.")
       .def_readonly("largest_angle", &CheckReport::largest_angle, "In degrees.")
       .def_readonly("exceptions", &CheckReport::exceptions, "Triangles that miss a bound for an accepted reason.")
+      .def_readonly("courant", &CheckReport::courant, "The greatest Courant number, if a time step is asked for.")
+      .def_readonly("triangles_above", &CheckReport::triangles_above,
+                    "Triangles with a greater Courant number than asked for.")
       .def_property_readonly(
           "angles",
           [](const py::object& self) {

@@ -35,6 +35,8 @@ struct CheckReport {
   double largest_angle = 0;
   std::array<std::uint64_t, 180> angles{};  ///< [d]: the number of angles from d up to d + 1 degrees
   std::int64_t exceptions = 0;              ///< triangles that miss a bound for an accepted reason: small input angles
+  double courant = 0;                       ///< the greatest Courant number, if a time step is asked for
+  std::int64_t triangles_above = 0;         ///< those with a greater one than asked for; findings if options.strict
 };
 
 /// Checks a mesh, however it was made; shares no code with the mesher but the exact predicates. It must be a

@@ -14,6 +14,7 @@ namespace driftmesh::defaults {
 inline constexpr double kMinAngle = 20;                ///< smallest angle of triangles, in degrees
 inline constexpr std::int64_t kSizeResolution = 2000;  ///< squares along the longer side of the domain
 inline constexpr double kSeparatorAngle = 60;          ///< smallest angle at separators, in degrees
+inline constexpr double kCourant = 0.5;                ///< largest Courant number, if a time step is given
 inline constexpr std::int64_t kSlice = 16384;          ///< points inserted between polls of the network
 inline constexpr std::int64_t kAggregation = 512;      ///< split points in one message
 

@@ -9,6 +9,7 @@
 
 #include "driftmesh/defaults.hpp"
 #include "driftmesh/point.hpp"
+#include "driftmesh/time_step.hpp"
 
 namespace driftmesh {
 
@@ -90,6 +91,15 @@ struct MeshOptions {
   /// corners and centroid alone. The function is called about once for each point of the grid, up to 4 million times by
   /// default; choose less for one that is costly and known to be smooth.
   std::int64_t size_resolution = defaults::kSizeResolution;
+  /// The time step that triangles are to allow, in steps of `courant.step` seconds, before any bound on their size:
+  /// triangles are only split for their size where those that this makes allow it. Coordinates and depths are in
+  /// meters. Where the input or the angle bound keep triangles from allowing it, they stay; with `strict` mesh()
+  /// throws an InputError.
+  CourantRule courant{};
+  /// Rasters of the domain by their names: a file each, or several with commas between them.
+  std::map<std::string, std::string> rasters{};
+  /// The one with depths, positive downward: `courant` asks it, and points get their depths as attributes.
+  std::string depth{};
 
   /// The most threads that work at once in a single process, where the mesh is large enough to be cut; the mesh does
   /// not depend on it. 0: one for each core, but only the calling thread if there is a `size`, which may not be made

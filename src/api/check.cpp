@@ -10,6 +10,7 @@
 #include "geometry/box.hpp"
 #include "job/check.hpp"
 #include "job/domain.hpp"
+#include "job/rasters.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
 
@@ -23,7 +24,8 @@ job::Request requirements_of(const MeshOptions& options) {
   request.input = all.input;
   request.bounds.angle = all.bounds.angle;
   static_cast<PlainBounds&>(request.bounds) = all.bounds;
-  request.sizing.resolution = all.sizing.resolution;
+  request.sizing = all.sizing;
+  request.output.depth = all.output.depth;
   job::check(request, job::kOnePiece);
   return request;
 }
@@ -56,7 +58,9 @@ CheckReport report_of(const VerifyReport& found, const VerifyOptions& asked) {
           .smallest_angle = quality.smallest_angle,
           .largest_angle = quality.largest_angle,
           .angles = quality.angles,
-          .exceptions = static_cast<std::int64_t>(quality.exception_count())};
+          .exceptions = static_cast<std::int64_t>(quality.exception_count()),
+          .courant = found.step.greatest,
+          .triangles_above = static_cast<std::int64_t>(found.step.above)};
 }
 
 /// `input`: null, or as the caller has it.
@@ -73,11 +77,17 @@ CheckReport check_against(const Mesh& mesh, const Pslg* input, const MeshOptions
                       .given = input,
                       .moved = request.input.snap + request.input.simplify,
                       .holes = request.input.holes,
+                      .courant = job::courant_of(request.sizing),
+                      .strict_step = request.input.strict,
                       .threads = threads_for(options)};
+  job::Rasters rasters = job::rasters_of(request, "");
+  const Box box = input != nullptr ? job::box_of(domain) : Box::of(mesh.points);
+  open_all(rasters, box, {});
+  const std::shared_ptr<const Raster> depth = rasters.depths();
+  if (asked.courant.step > 0) asked.depth = depth.get();
   if (options.size) {
     asked.size = &size;
-    asked.size_spacing =
-        job::sizing_of(request.sizing, input != nullptr ? job::box_of(domain) : Box::of(mesh.points)).spacing;
+    asked.size_spacing = job::sizing_of(request.sizing, box).spacing;
   }
   return report_of(input != nullptr ? verify(mesh, domain, asked) : verify(mesh, asked), asked);
 }

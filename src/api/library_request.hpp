@@ -23,6 +23,12 @@ void visit_options(Options&& o, job::Request& r, const Visit& visit) {
   visit("bounds.triangles", "triangles", o.triangles, r.bounds.triangles);
   visit("bounds.region-areas", "region_areas", o.region_areas, r.bounds.region_areas);
   visit("sizing.resolution", "size_resolution", o.size_resolution, r.sizing.resolution);
+  visit("sizing.courant-step", "courant.step", o.courant.step, r.sizing.courant_step);
+  visit("sizing.courant", "courant.bound", o.courant.bound, r.sizing.courant);
+  visit("sizing.courant-speed", "courant.speed", o.courant.speed, r.sizing.courant_speed);
+  visit("sizing.courant-length", "courant.length", o.courant.length, r.sizing.courant_length);
+  visit("input.rasters", "rasters", o.rasters, r.input.rasters);
+  visit("output.depth", "depth", o.depth, r.output.depth);
   visit("run.threads", "threads", o.threads, r.run.threads);
   visit("limits.max-triangles", "max_triangles", o.max_triangles, r.limits.max_triangles);
   visit("limits.max-memory", "max_memory", o.max_memory, r.limits.max_memory);

@@ -43,6 +43,7 @@ struct CheckOptions {
   VerifyOptions verify;
   Pslg given;  // the input before it is repaired, if needed
   std::unique_ptr<const SizeField> size;
+  std::shared_ptr<const Raster> depth;
   GivenKeys bounds;
   bool quiet = false;
   std::size_t threads = 0;  // 0: as many as the machine has cores
@@ -119,14 +120,17 @@ VerifyReport read_and_verify(CheckOptions& options, const job::Request& request)
   CheckedMesh mesh(options.mesh, options.reading);
   const std::optional<InputFile> file = read_and_repair(options, request.input);
   const Pslg* const input = file ? &file->pslg : nullptr;
-  const bool sized =
-      !request.sizing.expression.empty() || !request.sizing.background.empty() || request.sizing.longest > 0;
+  const bool sized = !request.sizing.expression.empty() || !request.sizing.background.empty() ||
+                     request.sizing.longest > 0 || request.sizing.courant_step > 0;
   SizingOptions sizes = input != nullptr ? job::sizing_of(request.sizing, *input)
                                          : job::sizing_of(request.sizing, sized ? mesh.box() : Box{});
   sizes.exact = true;
   job::Rasters rasters = job::rasters_of(request, file ? file->projection : "");
   open_all(rasters, sizes.domain, {});
+  options.depth = rasters.depths();
   sizes.rasters = std::move(rasters.open);
+  options.verify.courant = job::courant_of(request.sizing);
+  if (options.verify.courant.step > 0) options.verify.depth = options.depth.get();
   options.verify.threads = options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
   options.size = make_size_field(sizes);
   options.verify.size = options.size.get();
@@ -195,6 +199,11 @@ std::vector<cli::Option> check_options(CheckOptions& options) {
        .help = "Number of threads; 0: as many as the machine has cores",
        .standard = "0",
        .take = cli::into(options.threads, {0, 1024})},
+      {.kind = cli::Option::Kind::kFlag,
+       .name = "strict",
+       .help = "Reject a mesh with triangles that do not allow the time step of --courant-step; otherwise they are "
+               "listed",
+       .take = cli::into(options.verify.strict_step)},
       {.kind = cli::Option::Kind::kFlag,
        .name = "quiet",
        .help = "Print only the verdict",

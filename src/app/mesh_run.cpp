@@ -55,6 +55,9 @@ int mesh_at(job::Place& place, const Told& told, RunNotes& notes) {
   const std::unique_ptr<job::Refined> made =
       job::make({request, job::kMesh, given, wanted, before}, place, notes.run, notes);
   job::timed(notes, "inspect", [&] { made->report(notes.run); });
+  place.agree([&] {
+    if (place.leads()) job::require_step(notes.run);
+  });
   StagedFiles files;
   if (wanted.mesh && (notes.run.complete || request.limits.keep_incomplete)) {
     made->write(request.output, drawing(request), notes);

@@ -79,6 +79,52 @@ void add_exceptions(const RunRecord& run, Text out) {
   }
 }
 
+const char* cause_words(StepCause cause) {
+  switch (cause) {
+    case StepCause::kSegment:
+      return "at short segments of the input";
+    case StepCause::kHalf:
+      return "at segments that angles have split";
+    case StepCause::kBetween:
+      return "between points on segments";
+    case StepCause::kAngles:
+      break;
+  }
+  return "where angles or sizes leave no choice";
+}
+
+/// A length of two digits, rounded up.
+double rounded_up(double length) {
+  const double digit = std::pow(10, std::floor(std::log10(length)) - 1);
+  return std::ceil(length / digit) * digit;
+}
+
+void add_step(const RunRecord& run, Text out) {
+  const job::Request::Sizing& asked = run.request.sizing;
+  if (asked.courant_step == 0 || run.triangles == 0) return;
+  const job::MeshFacts::Step& step = run.step;
+  fmt::format_to(out, "time step    {:.4g} s holds (Courant {:g})", asked.courant_step * step.least_room,
+                 asked.courant);
+  fmt::format_to(out, "; {:g} s requested\n", asked.courant_step);
+  if (step.misses() > 0) fmt::format_to(out, "             too long for {}\n", counted(step.misses(), "triangle"));
+  for (std::size_t k = 0; k < step.groups.size(); ++k) {
+    const auto& group = step.groups[k];
+    if (group.count == 0) continue;
+    fmt::format_to(out, "             {} {}:", grouped(group.count), cause_words(static_cast<StepCause>(k)));
+    for (std::size_t i = 0; i < std::min(group.places.size(), static_cast<std::size_t>(group.count)); ++i)
+      fmt::format_to(out, " {:.3g} s at ({:.9g}, {:.9g})", asked.courant_step * group.places[i].room,
+                     group.places[i].at.x, group.places[i].at.y);
+    fmt::format_to(out, "{}\n", group.count > static_cast<std::int64_t>(group.places.size()) ? " ..." : "");
+  }
+  const auto hint = [&](StepCause cause, const char* option) {
+    const auto& group = step.groups[static_cast<std::size_t>(cause)];
+    if (group.count > 0)
+      fmt::format_to(out, "             a coarser outline: {} {:g}\n", option, rounded_up(group.longest_needed));
+  };
+  hint(StepCause::kSegment, "--simplify");
+  hint(StepCause::kBetween, "--snap");
+}
+
 void add_work(const RunRecord& run, Text out) {
   if (run.seconds_refine > 0.02)  // below that, clock resolution dominates
     fmt::format_to(out, "refinement   {} triangles per second\n", rate_words(run.triangles_per_second()));
@@ -201,6 +247,7 @@ std::string summary_text(const RunRecord& run) {
   add_mesh(run, out);
   text += histogram_text(run.shape);
   add_exceptions(run, out);
+  add_step(run, out);
   add_work(run, out);
   add_ranks(run, out);
   add_files(run, out);

@@ -19,6 +19,7 @@ struct Spacing {
     double bound = area_bound;
     if (sizes.by_place())
       for (const Point& p : {a, m, b}) bound = std::min(bound, twice_area_of_edge(sizes.length_at(p)) / 2);
+    if (const TimeStep* step = sizes.step()) bound = std::max(bound, twice_area_of_edge(step->floor_between(a, b)) / 2);
     return kPresplitSpacing * kPresplitSpacing * bound;
   }
 };

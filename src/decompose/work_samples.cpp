@@ -22,7 +22,10 @@ double work_in(const Triangulation& mesh, TriangleId t, const SizeBounds& sizes)
   double density = 0;
   for (const auto& [u, v, w] : {std::array<double, 3>{4, 1, 1}, {1, 4, 1}, {1, 1, 4}}) {
     const Point p{(u * a.x + v * b.x + w * c.x) / 6, (u * a.y + v * b.y + w * c.y) / 6};
-    density += std::max(least, 2 * kTrianglesPerBound / twice_area_of_edge(sizes.length_at(p)));
+    const double asked = std::max(least, 2 * kTrianglesPerBound / twice_area_of_edge(sizes.length_at(p)));
+    const TimeStep* step = sizes.step();
+    density +=
+        step == nullptr ? asked : std::min(asked, 2 * kTrianglesPerBound / twice_area_of_edge(step->floor_at(p)));
   }
   return std::max(1.0, area * density / 3);
 }

@@ -95,6 +95,19 @@ void check_rasters(const Request& request) {
           "give one of them");
 }
 
+void check_step(const Request::Sizing& sizing, const std::string& depth) {
+  const Request::Sizing standard;
+  require(sizing.courant_step == 0 || !depth.empty(), "sizing.courant-step", "needs depths",
+          "name their raster with {output.depth}");
+  if (sizing.courant_step > 0) return;
+  const auto serves_step = [](bool holds, const char* key) {
+    require(holds, key, "serves {sizing.courant-step}, which is not given", "give a time step, or remove it");
+  };
+  serves_step(sizing.courant == standard.courant, "sizing.courant");
+  serves_step(sizing.courant_speed == standard.courant_speed, "sizing.courant-speed");
+  serves_step(sizing.courant_length == standard.courant_length, "sizing.courant-length");
+}
+
 void check_sizes(const Request::Bounds& bounds, const Request::Sizing& sizing) {
   require(bounds.area == 0 || bounds.triangles == 0, "bounds.triangles", "cannot be combined with {bounds.area}",
           "remove one of them");
@@ -219,6 +232,7 @@ void check(const Request& request, PlaceKind place, const balancer::PolicyMaker&
   static_cast<void>(names_of(request.input));
   check_rasters(request);
   check_sizes(request.bounds, request.sizing);
+  check_step(request.sizing, request.output.depth);
   check_policy(request, policies);
   check_parts(request);
   check_method(request);

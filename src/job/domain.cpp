@@ -157,6 +157,7 @@ Domain read_domain(const Request& request, const Given& given, Watch& watch) {
   domain.size = std::move(source.field);
   domain.background = source.background;
   domain.rules = given.rules;
+  domain.step = step_of(request.sizing, domain.rasters);
   return domain;
 }
 
@@ -186,6 +187,15 @@ SizeSource size_of(const Request::Sizing& sizing, const NamedRasters& rasters, c
   options.rasters = rasters;
   if (given == nullptr) return make_size(options);
   return {std::make_unique<SampledField>(*given, SampledField::Grid{options.domain.low, options.spacing})};
+}
+
+CourantRule courant_of(const Request::Sizing& sizing) {
+  return {sizing.courant_step, sizing.courant, sizing.courant_speed, sizing.courant_length};
+}
+
+std::shared_ptr<const TimeStep> step_of(const Request::Sizing& sizing, const Rasters& rasters) {
+  if (sizing.courant_step == 0) return nullptr;
+  return std::make_shared<const TimeStep>(courant_of(sizing), rasters.depths());
 }
 
 Box box_of(const Pslg& pslg) {

@@ -14,6 +14,7 @@
 #include "job/watch.hpp"
 #include "mesh/bounds.hpp"
 #include "sizing/make_size_field.hpp"
+#include "sizing/time_step.hpp"
 
 namespace driftmesh::job {
 
@@ -36,6 +37,7 @@ struct Domain {
   std::shared_ptr<const SizeField> size;       ///< null: none is asked for
   const BackgroundMesh* background = nullptr;  ///< the one that the size field uses
   InsertionRules rules;
+  std::shared_ptr<const TimeStep> step;  ///< null: none is asked for
 };
 
 /// Reads or generates the domain, repairs and simplifies it, applies the rule for holes, and makes the size field.
@@ -57,6 +59,10 @@ void warn(const Request& request, std::span<const std::string> warnings, Watch& 
 /// every rank. `rasters`: those that the expression may name. Null if there is none. Throws InputError, FileError.
 [[nodiscard]] SizeSource size_of(const Request::Sizing& sizing, const NamedRasters& rasters, const SizeField* given,
                                  const Pslg& pslg);
+
+/// The time step that the request asks for, with its raster of depths, which is open; null if there is none.
+[[nodiscard]] std::shared_ptr<const TimeStep> step_of(const Request::Sizing& sizing, const Rasters& rasters);
+[[nodiscard]] CourantRule courant_of(const Request::Sizing& sizing);
 
 /// What the request asks for of the sizes of triangles in a domain inside `box`, and in this one, which is not owned.
 [[nodiscard]] SizingOptions sizing_of(const Request::Sizing& sizing, const Box& box);

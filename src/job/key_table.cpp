@@ -47,7 +47,7 @@ Section input_section() {
            "grid (.asc), or what GDAL reads (GeoTIFF, netCDF). Several, with commas between them, are one: gaps and "
            "the "
            "outside of the first are filled from the next",
-           of_files(), option("raster", "NAME=FILE"), entry_points(kMesh | kDecompose | kCheck | kExperiment | kPlot)),
+           of_files(), option("raster", "NAME=FILE"), entry_points(kMeshers | kDecompose | kCheck | kPlot)),
        key("input.raster-blend", &R::input, &R::Input::raster_blend,
            "The width over which several rasters of one name are blended where one of them ends, in the units of the "
            "domain; at least a spacing of the upper one",
@@ -85,7 +85,7 @@ Section input_section() {
               option("holes", "RULE"), entry_points(kMeshers | kDecompose | kCheck | kPlot)),
        key("input.strict", &R::input, &R::Input::strict,
            "Whether warnings about the input are errors: flaws of polygons, segments outside the domain, regions that "
-           "are not separated, rings that are neither holes nor regions",
+           "are not separated, rings that are neither holes nor regions; and triangles that do not allow the time step",
            option("strict"), entry_points(kMeshers | kDecompose)),
        key("input.marker-names", &R::input, &R::Input::marker_names,
            "What a marker of segments is called in files that can hold names, such as 5=inlet",
@@ -96,7 +96,9 @@ Section input_section() {
 }
 
 Section triangle_section() {
-  constexpr EntryPoints kAll = kMeshers | kDecompose | kCheck, kSizes = (kAll & ~kLibrary) | kPlot;
+  constexpr EntryPoints kAll = kMeshers | kDecompose | kCheck, kSizes = (kAll & ~kLibrary) | kPlot,
+                        kSteps = kMesh | kDecompose | kCheck | kLibrary;
+  const Names<CourantLength> courant_lengths = {{CourantLength::kEdge, "edge"}, {CourantLength::kAltitude, "altitude"}};
   return {
       "Triangles (lengths and areas in the units of the input)",
       kAnywhere,
@@ -137,7 +139,20 @@ Section triangle_section() {
        key("sizing.resolution", &R::sizing, &R::Sizing::resolution,
            "Where only values at points tell the size, they are taken on a grid of this many squares along the longer "
            "side of the domain: no feature that fills a square is missed",
-           in(1, 100'000), option("size-resolution", "N"), entry_points(kAll | kPlot))}};
+           in(1, 100'000), option("size-resolution", "N"), entry_points(kAll | kPlot)),
+       key("sizing.courant-step", &R::sizing, &R::Sizing::courant_step,
+           "The time step that all triangles are to allow, before any bound on their size: dt (sqrt(g H) + u) / l is "
+           "at most the Courant number, where H is the greatest depth in the triangle, at least 1 m. Takes "
+           "coordinates and depths in meters; 0: none",
+           unit("seconds"), from(0), option("courant-step", "DT"), entry_points(kSteps)),
+       key("sizing.courant", &R::sizing, &R::Sizing::courant, "The largest Courant number with this time step",
+           above(0), option("courant", "NUMBER"), entry_points(kSteps)),
+       key("sizing.courant-speed", &R::sizing, &R::Sizing::courant_speed, "Speed u of a current that waves travel with",
+           unit("m/s"), from(0), option("courant-speed", "U"), entry_points(kSteps)),
+       choice("sizing.courant-length", &R::sizing, &R::Sizing::courant_length, courant_lengths,
+              "The length l of a triangle: edge (its shortest edge) or altitude (its shortest altitude, for finite "
+              "volumes)",
+              option("courant-length", "LENGTH"), entry_points(kSteps))}};
 }
 
 Section limit_section() {
@@ -330,31 +345,34 @@ Section output_section() {
   const Names<MeshOrder> mesh_orders(kMeshOrders.begin(), kMeshOrders.end());
   const std::string meshes_help =
       "Mesh file; its extension selects the format: " + mesh_files_described() + "; - is standard output";
-  return {"Output",
-          kAnywhere,
-          kMesh,
-          {key("output.meshes", &R::output, &R::Output::meshes, meshes_help.c_str(), option('o', "output", "FILE")),
-           key("output.ascii", &R::output, &R::Output::ascii,
-               "Write .msh as text, for programs that read no binary one (deal.II)", option("ascii")),
-           choice("output.order", &R::output, &R::Output::order, mesh_orders,
-                  "Order of points and triangles in files that one process writes: given (points of the domain first), "
-                  "hilbert (along a Hilbert curve) or rcm (reverse Cuthill-McKee, for solvers: a small bandwidth)",
-                  option("order", "ORDER")),
-           key("output.ghost-layer", &R::output, &R::Output::ghost_layer,
-               "Write the pieces of .pvtu with a ring of triangles of their neighbors, marked as ghosts",
-               option("ghost-layer")),
-           key("output.open-boundary", &R::output, &R::Output::open_boundary,
-               "Markers of the segments that are open sea, in .14, .grd and .gr3 (none: those of markers called open)",
-               in(INT32_MIN, INT32_MAX), option("open-boundary", "MARKERS")),
-           key("output.depth", &R::output, &R::Output::depth,
-               "Give each point the value of the raster of this name as its attribute, the depth in .14, .grd and .gr3",
-               option("depth", "NAME")),
-           key("output.picture", &R::output, &R::Output::picture,
-               "Picture of the mesh: .png, .svg or .pdf (see also driftmesh plot --help)", output_file(),
-               option("plot", "FILE")),
-           key("output.record", &R::output, &R::Output::record, "Also write the summary as JSON", output_file(),
-               option("json", "FILE")),
-           key("output.quiet", &R::output, &R::Output::quiet, "Print only errors", option("quiet"))}};
+  return {
+      "Output",
+      kAnywhere,
+      kMesh,
+      {key("output.meshes", &R::output, &R::Output::meshes, meshes_help.c_str(), option('o', "output", "FILE")),
+       key("output.ascii", &R::output, &R::Output::ascii,
+           "Write .msh as text, for programs that read no binary one (deal.II)", option("ascii")),
+       choice("output.order", &R::output, &R::Output::order, mesh_orders,
+              "Order of points and triangles in files that one process writes: given (points of the domain first), "
+              "hilbert (along a Hilbert curve) or rcm (reverse Cuthill-McKee, for solvers: a small bandwidth)",
+              option("order", "ORDER")),
+       key("output.ghost-layer", &R::output, &R::Output::ghost_layer,
+           "Write the pieces of .pvtu with a ring of triangles of their neighbors, marked as ghosts",
+           option("ghost-layer")),
+       key("output.open-boundary", &R::output, &R::Output::open_boundary,
+           "Markers of the segments that are open sea, in .14, .grd and .gr3 (none: those of markers called open)",
+           in(INT32_MIN, INT32_MAX), option("open-boundary", "MARKERS")),
+       key("output.depth", &R::output, &R::Output::depth,
+           "Give each point the value of the raster of this name as its attribute, the depth in .14, .grd and .gr3",
+           option("depth", "NAME"), entry_points(kMesh | kDecompose | kCheck | kLibrary),
+           option_help("The raster of depths: each point gets its value as its attribute, the depth in .14, .grd and "
+                       ".gr3, and --courant-step asks it")),
+       key("output.picture", &R::output, &R::Output::picture,
+           "Picture of the mesh: .png, .svg or .pdf (see also driftmesh plot --help)", output_file(),
+           option("plot", "FILE")),
+       key("output.record", &R::output, &R::Output::record, "Also write the summary as JSON", output_file(),
+           option("json", "FILE")),
+       key("output.quiet", &R::output, &R::Output::quiet, "Print only errors", option("quiet"))}};
 }
 
 Section experiment_section() {

@@ -67,6 +67,7 @@ Order in_one_piece(const Asked& asked, const Place& place, Domain&& domain, Tria
   if (place.kind() == kRanks) {  // each of them triangulates it
     order.plan.bounds = std::move(triangulated.bounds);
     order.plan.bounds.size = nullptr;
+    order.plan.bounds.step = nullptr;
     order.pslg = std::move(domain.pslg);
     order.shares = place.speeds(asked.request);
   } else {
@@ -88,6 +89,7 @@ Order in_subdomains(const Asked& asked, const Place& place, Domain&& domain, con
   add_prepared(record, prepared);
   prepared.plan.work.sleep = use.sleeps;
   prepared.plan.bounds.size = nullptr;  // see Order::size
+  prepared.plan.bounds.step = nullptr;
   domain.pslg.holes = triangulated.holes;
   return {.plan = std::move(prepared.plan),
           .pslg = std::move(domain.pslg),
@@ -97,7 +99,8 @@ Order in_subdomains(const Asked& asked, const Place& place, Domain&& domain, con
           .use = use,
           .scratch = request.run.scratch,
           .rasters = std::move(domain.rasters),
-          .size = std::move(domain.size)};
+          .size = std::move(domain.size),
+          .step = std::move(domain.step)};
 }
 
 /// The number of ranks on which a number of triangles for each rank depends.

@@ -98,6 +98,28 @@ void add_shape(AngleSummary& sum, const AngleSummary& part, bool first) {
   sum.total_area += part.total_area;
 }
 
+void add_to(MeshFacts::Step::Group& group, const MeshFacts::Step::Group& other) {
+  std::vector<MeshFacts::Step::Place> places;
+  const auto take = [&](const MeshFacts::Step::Group& from) {
+    const auto known = std::min<std::size_t>(static_cast<std::size_t>(from.count), from.places.size());
+    places.insert(places.end(), from.places.begin(), from.places.begin() + static_cast<std::ptrdiff_t>(known));
+  };
+  take(group);
+  take(other);
+  std::ranges::stable_sort(places, {}, &MeshFacts::Step::Place::room);
+  std::copy_n(places.begin(), std::min(places.size(), group.places.size()), group.places.begin());
+  group.count += other.count;
+  group.longest_needed = std::max(group.longest_needed, other.longest_needed);
+}
+
+void add_step(MeshFacts& facts, const Triangulation& mesh, const TimeStep& step) {
+  const StepInspection found = inspect_step(mesh, step);
+  facts.step.least_room = std::min(facts.step.least_room, found.least_room);
+  for (const StepMiss& miss : found.misses)
+    add_to(facts.step.groups[static_cast<std::size_t>(miss.cause)],
+           {1, {{{centroid(mesh, miss.triangle), miss.room}}}, miss.needed});
+}
+
 /// The plain values of MeshFacts, in the same order for writing and reading.
 template <class Stream, class Facts>
 void transfer_plain(Stream& stream, Facts& facts) {
@@ -107,6 +129,7 @@ void transfer_plain(Stream& stream, Facts& facts) {
   stream.value(facts.counters);
   stream.value(facts.shape);
   stream.value(facts.digest);
+  stream.value(facts.step);
 }
 
 }  // namespace
@@ -133,6 +156,18 @@ void add_part(MeshFacts& facts, const Triangulation& mesh, const QualityBounds& 
   facts.digest += digest.get();
   add_skinny(facts, mesh, std::move(found.exceptions.skinny), complete);
   add_large(facts, mesh, found.exceptions.large);
+  if (bounds.step != nullptr) add_step(facts, mesh, *bounds.step);
+}
+
+std::int64_t MeshFacts::Step::misses() const {
+  std::int64_t sum = 0;
+  for (const Group& group : groups) sum += group.count;
+  return sum;
+}
+
+void MeshFacts::Step::add(const Step& other) {
+  least_room = std::min(least_room, other.least_room);
+  for (std::size_t k = 0; k < groups.size(); ++k) add_to(groups[k], other.groups[k]);
 }
 
 void add_facts(MeshFacts& facts, const MeshFacts& others) {
@@ -142,6 +177,7 @@ void add_facts(MeshFacts& facts, const MeshFacts& others) {
   facts.subsegments += others.subsegments;
   facts.digest += others.digest;
   add_counters(facts, others.counters);
+  facts.step.add(others.step);
   for (const Group& group : others.exceptions) add_group(facts, group);
 }
 

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "base/bytes.hpp"
 #include "mesh/exceptions.hpp"
 #include "mesh/refine_counters.hpp"
+#include "mesh/step_inspection.hpp"
 
 namespace driftmesh::job {
 
@@ -33,6 +36,27 @@ struct MeshFacts {
     std::vector<Place> places;  ///< the worst: corners with the smallest angles, each once
   };
   std::vector<ExceptionGroup> exceptions;
+
+  /// What a time step that was asked for has come to.
+  struct Step {
+    static constexpr std::size_t kMaxPlaces = 3;
+    struct Place {
+      Point at;
+      double room = 1;  ///< the longest step there over the one asked for
+    };
+    /// Triangles that do not allow it, for the same reason.
+    struct Group {
+      std::int64_t count = 0;
+      std::array<Place, kMaxPlaces> places{};  ///< the worst, as many as there are
+      double longest_needed = 0;               ///< the longest edge that one of them needs
+    };
+    double least_room = std::numeric_limits<double>::infinity();
+    std::array<Group, kStepCauses> groups{};  ///< by StepCause
+
+    [[nodiscard]] std::int64_t misses() const;
+    void add(const Step& other);
+  };
+  Step step;
 };
 
 /// Adds the facts of `mesh`, a part refined to `bounds`. `complete`: refinement was not stopped by a limit.

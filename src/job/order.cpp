@@ -22,6 +22,10 @@ void transfer_rest(Stream& stream, Fields& order) {
   stream.value(order.sizing.shortest);
   stream.value(order.sizing.longest);
   stream.value(order.sizing.resolution);
+  stream.value(order.sizing.courant_step);
+  stream.value(order.sizing.courant);
+  stream.value(order.sizing.courant_speed);
+  stream.value(order.sizing.courant_length);
   stream.value(order.limits);
   stream.array(order.shares);
   stream.value(order.use);
@@ -85,6 +89,7 @@ Order taken(Team& team, ByteReader& head, const balancer::PolicyMaker& policies)
     order.plan = plan_from_bytes(plan, team.ranks(), policies);
     order.pslg = pslg_from_bytes(pslg);
     open_all(order.rasters, box_of(order.pslg), {});
+    order.step = step_of(order.sizing, order.rasters);
   });
   return order;
 }

@@ -35,6 +35,7 @@ struct Order {
   std::string scratch{};          ///< folder where subdomains sleep; empty: in memory
   Rasters rasters{};              ///< open; others than rank 0 open them themselves
   std::shared_ptr<const SizeField> size{};  ///< what the domain was cut for; for this process alone
+  std::shared_ptr<const TimeStep> step{};   ///< what triangles are to allow; others than rank 0 make it themselves
   std::optional<Whole> whole{};             ///< in place of plan and input, for one piece, which stays where it is
 };
 

@@ -24,6 +24,7 @@ RankRun::RankRun(Team& team, Order order, const Limits& limits, const SizeField*
     size_ = std::move(order_.size);
     if (size_ == nullptr) size_ = size_of(order_.sizing, order_.rasters.open, size, order_.pslg).field;
     order_.plan.bounds.size = size_.get();
+    order_.plan.bounds.step = order_.step.get();
     order_.plan.max_triangles = limits_.triangles;
     scratch_ = open_scratch(order_.scratch, forecast_of(order_.plan, team_.rank()) * team_.ranks_on_machine());
     order_.plan.scratch = scratch_.get();

@@ -21,6 +21,11 @@ std::string warning_of(const std::string& name, const std::string& file, const O
 
 }  // namespace
 
+std::shared_ptr<const Raster> Rasters::depths() const {
+  const auto found = std::ranges::find(open, depth, &NamedRaster::name);
+  return found == open.end() ? nullptr : found->raster;
+}
+
 void Rasters::write(ByteWriter& writer) const {
   writer.value(files.size());
   for (const auto& [name, file] : files) {
@@ -62,11 +67,11 @@ std::vector<std::string> open_all(Rasters& rasters, const Box& box, const std::v
 }
 
 void set_depths(const Rasters& rasters, Mesh& mesh) {
-  if (rasters.depth.empty()) return;
-  const auto found = std::ranges::find(rasters.open, rasters.depth, &NamedRaster::name);
+  const std::shared_ptr<const Raster> depths = rasters.depths();
+  if (!depths) return;
   mesh.attributes_per_point = 1;
   mesh.attributes.resize(mesh.points.size());
-  std::ranges::transform(mesh.points, mesh.attributes.begin(), [&](const Point& p) { return found->raster->at(p); });
+  std::ranges::transform(mesh.points, mesh.attributes.begin(), [&](const Point& p) { return depths->at(p); });
 }
 
 }  // namespace driftmesh::job

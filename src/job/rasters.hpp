@@ -21,6 +21,9 @@ struct Rasters {
   std::string depth;       ///< the one that the points of the mesh get values of; empty: none
   NamedRasters open;
 
+  /// The raster of depths, open; null: none.
+  [[nodiscard]] std::shared_ptr<const Raster> depths() const;
+
   void write(ByteWriter& writer) const;  ///< without what is open
   [[nodiscard]] static Rasters read(ByteReader& reader);
 };

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/key_error.hpp"
+#include "driftmesh/error.hpp"
 #include "job/value.hpp"
 
 namespace driftmesh::job {
@@ -17,6 +19,7 @@ std::string sizing_words(const Request::Sizing& sizing) {
   if (sizing.gradation > 0) add("gradation " + shortest_text(sizing.gradation));
   if (sizing.shortest > 0) add("at least " + shortest_text(sizing.shortest));
   if (sizing.longest > 0) add("at most " + shortest_text(sizing.longest));
+  if (sizing.courant_step > 0) add("but for a time step of " + shortest_text(sizing.courant_step) + " s");
   return words;
 }
 
@@ -32,6 +35,16 @@ std::size_t holes_in(const Pslg& pslg) {
 }
 
 }  // namespace
+
+void require_step(const RunRecord& run) {
+  if (!run.request.input.strict || run.step.misses() == 0) return;
+  const auto seconds = [&](double room) { return shortest_text(run.request.sizing.courant_step * room); };
+  throw Keyed<InputError>({run.input_file},
+                          "the time step of " + seconds(1) + " s is too long for " + std::to_string(run.step.misses()) +
+                              " triangles; one of " + seconds(run.step.least_room) + " s holds",
+                          "coarsen the outline with {input.simplify} or {input.snap}, ask for a shorter step, or "
+                          "accept it (not strict)");
+}
 
 void record_domain(RunRecord& run, const Request& request, const Domain& domain) {
   run.request = request;

@@ -61,6 +61,9 @@ struct RunRecord : MeshFacts {
   }
 };
 
+/// Throws InputError if the request is strict and there are triangles that do not allow its time step.
+void require_step(const RunRecord& run);
+
 /// Fills in the request and the domain.
 void record_domain(RunRecord& run, const Request& request, const Domain& domain);
 

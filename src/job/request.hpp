@@ -8,6 +8,7 @@
 #include "cluster/cluster_spec.hpp"
 #include "driftmesh/defaults.hpp"
 #include "driftmesh/mesh_order.hpp"
+#include "driftmesh/time_step.hpp"
 #include "mapping/mapping.hpp"
 #include "mesh/bounds.hpp"
 #include "mesh/handles.hpp"
@@ -70,6 +71,10 @@ struct Request {
     double shortest = 0;
     double longest = 0;  ///< 0: no limit
     std::int64_t resolution = defaults::kSizeResolution;
+    double courant_step = 0;  ///< 0: no time step is asked for
+    double courant = defaults::kCourant;
+    double courant_speed = 0;
+    CourantLength courant_length = CourantLength::kEdge;
   } sizing;
 
   struct Limits {

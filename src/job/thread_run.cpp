@@ -24,6 +24,7 @@ ThreadRun::ThreadRun(Order order, const Limits& limits, std::int32_t threads, Wa
     : order_(std::move(order)), watch_(watch), limits_(limits), book_(order_.plan.decomposition) {
   sizes_.assign(to_index(threads), order_.size.get());
   order_.plan.bounds.size = sizes_.front();
+  order_.plan.bounds.step = order_.step.get();
   scratch_ = open_scratch(order_.scratch, forecast_of(order_.plan));
   order_.plan.scratch = scratch_.get();
 }
@@ -38,7 +39,9 @@ void ThreadRun::release() {
   scratch_.reset();
   order_.plan.scratch = nullptr;
   order_.plan.bounds.size = nullptr;
+  order_.plan.bounds.step = nullptr;
   order_.size.reset();
+  order_.step.reset();
 }
 
 void ThreadRun::refine() {

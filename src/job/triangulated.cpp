@@ -26,8 +26,11 @@ double wanted_triangles(const Request::Bounds& bounds, std::int32_t ranks) {
 }
 
 QualityBounds bounds_of(const Request& request, const Domain& domain, const Triangulation& mesh, std::int32_t ranks) {
-  QualityBounds bounds{
-      .min_angle = request.bounds.angle, .plain = request.bounds, .size = domain.size.get(), .rules = domain.rules};
+  QualityBounds bounds{.min_angle = request.bounds.angle,
+                       .plain = request.bounds,
+                       .size = domain.size.get(),
+                       .step = domain.step.get(),
+                       .rules = domain.rules};
   if (bounds.plain.region_areas) bounds.region_max_area = areas_by_region(domain.pslg);
   if (const double count = wanted_triangles(request.bounds, ranks); count > 0)
     bounds.plain.area = area_for_count(mesh, bounds, count);

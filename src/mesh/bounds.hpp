@@ -9,6 +9,7 @@
 #include "driftmesh/defaults.hpp"
 #include "driftmesh/pslg.hpp"
 #include "driftmesh/size_field.hpp"
+#include "sizing/time_step.hpp"
 
 namespace driftmesh {
 
@@ -44,6 +45,8 @@ struct QualityBounds {
   std::vector<double> region_max_area{};
   /// Target edge length as a function of position, or null. Not owned.
   const SizeField* size = nullptr;
+  /// The time step that triangles are to allow, before all bounds on their size, or null. Not owned.
+  const TimeStep* step = nullptr;
   InsertionRules rules{};
 };
 

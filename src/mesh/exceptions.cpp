@@ -97,11 +97,11 @@ Inspection inspect(const Triangulation& mesh, const QualityBounds& bounds) {
   const AreaBounds areas(mesh, bounds);
   SizeAtVertices sizes(mesh, areas.sizes());
   const auto is_large = [&](TriangleId t, double twice_area) {
-    if (twice_area > areas.constant(t)) return true;
-    if (!areas.by_place()) return false;
     const CornerPoints corners{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
-    return areas.above_size(
-        corners, twice_area, [&] { return sizes.least_at_corners(t); }, true);
+    const bool above = twice_area > areas.constant(t) ||
+                       (areas.by_place() && areas.above_size(
+                                                corners, twice_area, [&] { return sizes.least_at_corners(t); }, true));
+    return above && !areas.sizes().spares_thinned(corners, twice_area);
   };
   double least_cosine = 1, greatest_cosine = -1;
   double least_area = kNoBound, greatest_area = 0;  // twice

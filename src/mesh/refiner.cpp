@@ -8,6 +8,7 @@
 #include "mesh/bound_forecast.hpp"
 #include "mesh/exceptions.hpp"
 #include "mesh/renumber.hpp"
+#include "mesh/thinning.hpp"
 
 namespace driftmesh {
 namespace {
@@ -32,7 +33,8 @@ Refiner::Refiner(Triangulation& mesh, double min_angle, const SizeBounds& sizes,
 
 /// Whether a triangle with twice this area is too large.
 inline bool Refiner::is_large(TriangleId t, double twice_area) const {
-  return twice_area > coarsening_ * areas_.constant(t) || (areas_.by_place() && is_large_for_size(t, twice_area));
+  return (twice_area > coarsening_ * areas_.constant(t) || (areas_.by_place() && is_large_for_size(t, twice_area))) &&
+         !areas_.sizes().spares(corners(t), twice_area);
 }
 
 bool Refiner::is_large_for_size(TriangleId t, double twice_area) const {
@@ -99,7 +101,9 @@ bool Refiner::step() {
       }
       return true;
     case Stage::kRest:
-      if (!step_large() && !step_skinny() && !(rules_.conforming && split_encroached())) enter(Stage::kDone);
+      if (step_large() || step_skinny() || (rules_.conforming && split_encroached())) return true;
+      state_.counters.deleted_points += thin_for_step(mesh_, min_angle_, areas_);
+      enter(Stage::kDone);
       return true;
     case Stage::kDone:
       break;

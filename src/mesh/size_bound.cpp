@@ -66,7 +66,9 @@ SizeKinds kinds_of(const QualityBounds& bounds) {
 
 }  // namespace
 
-SizeBounds::SizeBounds(const QualityBounds& bounds) : SizeBounds(kinds_of(bounds)) {}
+SizeBounds::SizeBounds(const QualityBounds& bounds) : SizeBounds(kinds_of(bounds)) {
+  step_ = floor_ = bounds.step;
+}
 
 SizeBounds::SizeBounds(SizeKinds kinds) : kinds_(std::move(kinds)) {
   std::size_t regions = 1;
@@ -85,6 +87,7 @@ SizeBounds SizeBounds::coarser(double factor) const {
   SizeBounds coarse = *this;
   for (double& bound : coarse.by_region_) bound *= factor;
   coarse.stretch_ *= std::sqrt(factor);
+  coarse.step_ = nullptr;
   return coarse;
 }
 

@@ -41,11 +41,24 @@ class SizeBounds {
   SizeBounds(const QualityBounds& bounds);
   explicit SizeBounds(SizeKinds kinds);
 
-  /// The same for triangles with `factor` times the area.
+  /// The same for triangles with `factor` times the area; no mesh made for them has to allow a time step.
   [[nodiscard]] SizeBounds coarser(double factor) const;
 
   /// Whether there is any bound.
   [[nodiscard]] bool any() const { return by_place() || least_twice_area() < kNoBound; }
+
+  // ---- The time step: its floor comes last, above all bounds on sizes ----
+
+  /// The time step that a finished mesh is to allow; null: none.
+  [[nodiscard]] const TimeStep* step() const { return step_; }
+  /// Whether a triangle that is larger than the bounds stays as it is for the sake of the time step.
+  [[nodiscard]] bool spares(const CornerPoints& corners, double twice_area) const {
+    return floor_ != nullptr && twice_area <= twice_area_of_edge(stretch_ * floor_->floor(corners));
+  }
+  /// Whether deleting vertices for its sake may leave a triangle that is larger than the bounds.
+  [[nodiscard]] bool spares_thinned(const CornerPoints& corners, double twice_area) const {
+    return floor_ != nullptr && twice_area <= twice_area_of_edge(TimeStep::kThinned * floor_->floor(corners));
+  }
 
   // ---- By region ----
 
@@ -84,6 +97,8 @@ class SizeBounds {
   std::vector<const SizeField*> fields_;  // theirs
   std::vector<double> by_region_;         // the last is that of all labels that no kind names
   double stretch_ = 1;                    // factor on lengths
+  const TimeStep* step_ = nullptr;
+  const TimeStep* floor_ = nullptr;
 };
 
 }  // namespace driftmesh

@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 #include <mutex>
+#include <span>
 
 #include "geometry/box.hpp"
 #include "raster/pyramid.hpp"
@@ -29,6 +30,8 @@ class Raster {
   /// The slope of the values: the length of the gradient, per unit of length of the coordinates. Is made when it is
   /// first asked for.
   [[nodiscard]] virtual std::shared_ptr<const Raster> slope() const = 0;
+  /// The grids between whose lines at() is smooth.
+  [[nodiscard]] virtual std::span<const RasterFrame> frames() const = 0;
 };
 
 /// Values on a grid: bilinear between four points of the grid, and outside of the grid that of its nearest point.
@@ -47,6 +50,7 @@ class GridRaster final : public Raster {
   [[nodiscard]] Slopes slopes_over(const Box& box) const override;
   /// At points of the grid by differences of their neighbors' values (one-sided at its rim), bilinear in between.
   [[nodiscard]] std::shared_ptr<const Raster> slope() const override;
+  [[nodiscard]] std::span<const RasterFrame> frames() const override { return {&grid_.frame(), 1}; }
 
  private:
   [[nodiscard]] double value(double u, double v) const;

@@ -44,6 +44,9 @@ RasterStack::RasterStack(std::vector<Layer> layers) : layers_(std::move(layers))
   layers_.back().share = nullptr;
   for (Layer& layer : layers_)
     if (!layer.share) layer.reach = {{-kUnbounded, -kUnbounded}, {kUnbounded, kUnbounded}};
+  for (const Layer& layer : layers_)
+    for (const auto& raster : {layer.values, layer.share})
+      if (raster) frames_.insert(frames_.end(), raster->frames().begin(), raster->frames().end());
 }
 
 double RasterStack::at(const Point& p) const {

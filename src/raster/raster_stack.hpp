@@ -27,12 +27,14 @@ class RasterStack final : public Raster {
   [[nodiscard]] Slopes slopes_over(const Box& box) const override;
   /// The slopes of the layers, blended in the same way.
   [[nodiscard]] std::shared_ptr<const Raster> slope() const override;
+  [[nodiscard]] std::span<const RasterFrame> frames() const override { return frames_; }
 
  private:
   struct Mixed;
   [[nodiscard]] Mixed mixed_over(const Box& box, bool with_slopes) const;
 
   std::vector<Layer> layers_;
+  std::vector<RasterFrame> frames_;  // those of values and shares
   mutable std::once_flag has_slope_;
   mutable std::shared_ptr<const Raster> slope_;
 };

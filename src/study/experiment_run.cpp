@@ -127,6 +127,7 @@ void make_run(ExperimentRun& run, RealCluster* cluster, job::Watch& watch) {
   if (made->plan() != nullptr) {
     run.plan = *made->plan();
     run.plan.bounds.size = nullptr;
+    run.plan.bounds.step = nullptr;
   }
   made.reset();  // the subdomains are no longer needed
   run.speeds = place.speeds(request);

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "config/value_json.hpp"
 #include "driftmesh/version.hpp"
 #include "job/key.hpp"
@@ -70,6 +73,21 @@ Json exceptions_json(const RunRecord& run) {
   return list;
 }
 
+Json step_json(const RunRecord& run) {
+  static constexpr std::array kCauses{"short segment", "split segment", "between segments", "angles or sizes"};
+  Json causes = Json::array();
+  for (std::size_t k = 0; k < run.step.groups.size(); ++k) {
+    const auto& group = run.step.groups[k];
+    Json places = Json::array();
+    for (std::size_t i = 0; i < std::min(group.places.size(), static_cast<std::size_t>(group.count)); ++i)
+      places.push_back({group.places[i].at.x, group.places[i].at.y});
+    if (group.count > 0) causes.push_back({{"cause", kCauses[k]}, {"triangles", group.count}, {"places", places}});
+  }
+  return {{"holds", run.request.sizing.courant_step * run.step.least_room},
+          {"triangles_above", run.step.misses()},
+          {"causes", causes}};
+}
+
 Json work_json(const RunRecord& run) {
   Json stages = Json::object();
   for (const job::StageTime& stage : run.stages) stages[stage.name] = stage.seconds;
@@ -128,6 +146,7 @@ std::string run_json(const RunRecord& run) {
                  {"exceptions", exceptions_json(run)},
                  {"work", work_json(run)},
                  {"files", files_json(run)}};
+  if (run.request.sizing.courant_step > 0 && run.triangles > 0) record["time_step"] = step_json(run);
   if (!run.ranks.empty()) record["parts"] = parts_json(run);
   return json_text(record, 2);
 }

@@ -68,6 +68,8 @@ const char* flaw_name(Flaw flaw) {
       return "small angle";
     case Flaw::kLargeArea:
       return "large area";
+    case Flaw::kTimeStep:
+      return "large Courant number";
   }
   return "unknown flaw";
 }

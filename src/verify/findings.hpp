@@ -47,8 +47,9 @@ enum class Flaw : std::uint8_t {
   // Quality.
   kSmallAngle,  ///< an angle below the bound that nothing in the input explains
   kLargeArea,   ///< an area above the bound
+  kTimeStep,    ///< a Courant number above the bound, if that counts as a flaw
 };
-inline constexpr std::size_t kFlawCount = to_index(Flaw::kLargeArea) + 1;
+inline constexpr std::size_t kFlawCount = to_index(Flaw::kTimeStep) + 1;
 
 /// The name of the kind in words: "not Delaunay".
 [[nodiscard]] const char* flaw_name(Flaw flaw);

@@ -43,6 +43,7 @@ std::string angle_words(const Suspect& suspect, const ShortestEdge& edge, double
 
 void Judge::judge(const Suspect& suspect, Quality& quality, Findings& findings) {
   if (suspect.miss == Suspect::Miss::kAngle) return judge_angle(suspect, quality, findings);
+  if (step_ != nullptr && step_->spares(suspect.corners)) return;
   const auto describe = [&] { return area_words(suspect); };
   if (room().none_for_area(suspect.corners))
     except(ExceptionReason::kNoRoom, quality, describe);

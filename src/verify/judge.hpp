@@ -9,6 +9,7 @@
 #include "verify/findings.hpp"
 #include "verify/quality.hpp"
 #include "verify/room.hpp"
+#include "verify/step_check.hpp"
 
 namespace driftmesh {
 
@@ -17,9 +18,9 @@ namespace driftmesh {
 class Judge {
  public:
   /// All subsegments and the triangles beside them are in `mesh`, in which points have ascending numbers. The arguments
-  /// must outlive the object.
-  Judge(const Mesh& mesh, const Chains& chains, double min_angle, std::size_t max_listed)
-      : mesh_(mesh), chains_(chains), min_angle_(min_angle), max_listed_(max_listed) {}
+  /// must outlive the object. `step`: null if there is no time step.
+  Judge(const Mesh& mesh, const Chains& chains, double min_angle, std::size_t max_listed, const StepCheck* step)
+      : mesh_(mesh), chains_(chains), min_angle_(min_angle), max_listed_(max_listed), step_(step) {}
 
   /// Adds a suspect to the exceptions or to the findings.
   void judge(const Suspect& suspect, Quality& quality, Findings& findings);
@@ -38,6 +39,7 @@ class Judge {
   const Chains& chains_;
   double min_angle_;
   std::size_t max_listed_;
+  const StepCheck* step_;
   std::optional<Room> room_;
 };
 

@@ -82,6 +82,22 @@ void add_exceptions(const Quality& quality, double min_angle, Text out) {
   }
 }
 
+void add_step(const VerifyReport& report, const VerifyOptions& options, Text out) {
+  if (options.depth == nullptr || report.triangles == 0) return;
+  const StepMeasures& step = report.step;
+  append_formatted(out,
+                   "time step      {:.4g} s holds (Courant {:g}), {:g} s asked for; Courant numbers up to {:.4g}\n",
+                   options.courant.step * options.courant.bound / step.greatest, options.courant.bound,
+                   options.courant.step, step.greatest);
+  if (step.above == 0) return;
+  append_formatted(out, "  {} triangles ({:.3g} %) do not allow it\n", grouped(step.above),
+                   100 * static_cast<double>(step.above) / static_cast<double>(report.triangles));
+  if (options.strict_step) return;
+  for (const StepMeasures::Item& item : step.worst) append_formatted(out, "    {}\n", item.words);
+  if (step.above > step.worst.size())
+    append_formatted(out, "    and {} more\n", grouped(step.above - step.worst.size()));
+}
+
 void add_flaws(const Findings& findings, Text out) {
   for (const Flaw flaw : first_ids<Flaw>(kFlawCount)) {
     if (findings.count(flaw) == 0) continue;
@@ -99,6 +115,8 @@ std::string what_was_checked(const VerifyReport& report, const VerifyOptions& op
     text += formatted(" except for {} triangles that the input explains", grouped(n));
   if (options.plain.area > 0) text += formatted(", areas of at most {}", options.plain.area);
   if (options.size != nullptr) text += ", sizes asked for";
+  if (options.depth != nullptr && report.step.above == 0)
+    text += formatted(", a time step of {:g} s", options.courant.step);
   return text;
 }
 
@@ -110,6 +128,7 @@ std::string report_text(const VerifyReport& report, const VerifyOptions& options
   add_counts(report, out);
   add_histogram(report.quality, out);
   add_exceptions(report.quality, options.min_angle, out);
+  add_step(report, options, out);
   add_flaws(report.findings, out);
   return text;
 }

@@ -28,6 +28,7 @@
 #include "verify/polygons_check.hpp"
 #include "verify/regions.hpp"
 #include "verify/size_check.hpp"
+#include "verify/step_check.hpp"
 #include "verify/subsegments.hpp"
 
 namespace driftmesh {
@@ -49,6 +50,7 @@ class Verification {
   VerifyReport run() {
     find_domain();
     check_pieces();
+    if (options_.depth != nullptr) check_step();
     join_pieces();
     if (computable_) {
       if (conflict_) findings_.add(Flaw::kInputNotPlanar, [&] { return *conflict_; });
@@ -122,6 +124,18 @@ class Verification {
   }
 
   [[nodiscard]] std::size_t threads() const { return std::max<std::size_t>(options_.threads, 1); }
+
+  void check_step() {
+    step_.emplace(options_.courant, *options_.depth);
+    std::vector<StepMeasures> measures(pieces_.count);
+    for_each_piece([&](const NamedMesh& piece, std::size_t k) {
+      if (found_[k].computable) measures[k] = step_->measure(piece, options_.max_listed, whole_ ? threads() : 1);
+    });
+    for (const StepMeasures& piece : measures) report_.step.add(piece, options_.max_listed);
+    if (!options_.strict_step) return;
+    for (std::uint64_t i = 0; i < report_.step.above; ++i)
+      findings_.add(Flaw::kTimeStep, [&] { return i < report_.step.worst.size() ? report_.step.worst[i].words : ""; });
+  }
 
   // ---- The whole -----------------------------------------------------------------------------------------------
 
@@ -258,7 +272,7 @@ class Verification {
   /// Judges the suspects. The piece itself is needed only if there are too many of them, or regions: their triangles
   /// are measured now that it is known which region they lie in.
   void look_again(std::size_t k, const Chains& chains, Second& found) {
-    Judge judge(frame_.mesh, chains, options_.min_angle, options_.max_listed);
+    Judge judge(frame_.mesh, chains, options_.min_angle, options_.max_listed, step_ ? &*step_ : nullptr);
     const auto take = [&](const Suspect& suspect) { judge.judge(suspect, found.exceptions, found.bounds); };
     Measures& measures = found_[k].measures;
     if (faces_ || !measures.all_suspects)
@@ -322,6 +336,7 @@ class Verification {
   const Pslg* input_;
   const VerifyOptions& options_;
   std::optional<SizeCheck> size_;
+  std::optional<StepCheck> step_;
   CheckedBounds bounds_;
   VerifyReport report_;
   Findings findings_;

@@ -9,9 +9,11 @@
 #include "driftmesh/options.hpp"
 #include "driftmesh/pslg.hpp"
 #include "driftmesh/size_field.hpp"
+#include "driftmesh/time_step.hpp"
 #include "mesh/bounds.hpp"
 #include "verify/findings.hpp"
 #include "verify/quality.hpp"
+#include "verify/step_check.hpp"
 
 namespace driftmesh {
 
@@ -32,7 +34,12 @@ struct VerifyOptions {
   double moved = 0;
   HoleRule holes = HoleRule::kPoints;  ///< which parts of the input are holes
   bool check_delaunay = true;          ///< false for meshes that only need to be conforming
-  std::size_t max_listed = 5;          ///< messages kept of each kind of flaw and of each cause of an exception
+  /// The time step that triangles are to allow, and depths; null: none. Triangles above it are measured and listed;
+  /// with `strict_step` they are flaws. It comes before `plain` and `size`: see StepCheck. Must outlive the call.
+  CourantRule courant{};
+  const Raster* depth = nullptr;
+  bool strict_step = false;
+  std::size_t max_listed = 5;  ///< messages kept of each kind of flaw and of each cause of an exception
   /// Pieces are spread over them, and most of the work on a mesh in one piece. With several, `size` is asked by several
   /// at once. The report does not depend on their number.
   std::size_t threads = 1;
@@ -58,6 +65,7 @@ struct VerifyReport {
   double input_area = 0;                 ///< if against_input: of the domain that the input describes
   bool polygons_judged = true;           ///< false: rounding keeps options.given from being read anew
   Quality quality;
+  StepMeasures step;  ///< if options.depth is given
   Findings findings;
 
   /// Whether no flaw was found. Exceptions (quality.exceptions) are not flaws.

@@ -12,6 +12,7 @@ namespace driftmesh::job {
 std::unique_ptr<Refined> SimulatedRanks::refine(Order&& order, const Limits& limits, const SizeField*, Watch& watch) {
   RunPlan plan = std::move(order.plan);
   plan.bounds.size = order.size.get();
+  plan.bounds.step = order.step.get();
   std::vector<RankReport> reports;
   FactsBook book(plan.decomposition);
   SimulationObservers observers;
@@ -21,6 +22,7 @@ std::unique_ptr<Refined> SimulatedRanks::refine(Order&& order, const Limits& lim
   };
   ClusterRun history = simulate(plan, cluster_, costs_, observers);
   plan.bounds.size = nullptr;
+  plan.bounds.step = nullptr;
   return std::make_unique<SimulatedOutcome>(std::move(reports), std::move(history), std::move(plan));
 }
 
