@@ -11,8 +11,12 @@ namespace driftmesh {
 namespace {
 
 constexpr double kEnough = 1 + 1e-8;
-// Floors over lengths: measured, see docs/guarantees.md.
-constexpr double kForEdges = 2.0;
+// Floors over the length that a depth asks for. The circumradius of a triangle with a larger area than the equilateral
+// one with an edge of 2 lengths exceeds 2 / sqrt(3) of them, so its circumcenter is farther than that from all
+// vertices. If it encroaches upon a segment of length L instead, it is in a lens of 120 degrees, in which all points
+// are within L / sqrt(3) of an end. So L exceeds 2 lengths, and the halves of the segment are longer than one (for
+// angle bounds up to 30 degrees, beyond which lenses are wider). The factor for altitudes is measured.
+constexpr double kForEdges = 2;
 constexpr double kForAltitudes = 2.6;
 constexpr double kForHalves = 2.05;
 

@@ -16,7 +16,7 @@ constexpr double kSlackOfCourant = 1e-9;  // relative, for rounding
 constexpr double kGravityOfEarth = 9.81;  // m/s^2
 constexpr double kShallowest = 1;         // m
 // The edge of a triangle that may be larger than asked for, over the length needed: what the mesher promises.
-constexpr double kSpareEdges = 2.35;
+constexpr double kSpareEdges = 2.61;
 constexpr double kSpareAltitudes = 3.4;
 
 double edge_of(const Point& a, const Point& b) {

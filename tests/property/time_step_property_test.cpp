@@ -283,3 +283,29 @@ TEST_CASE("the summary and the verifier tell the step that holds, and other boun
   CHECK(held > 0);
   CHECK(decided > 0);
 }
+
+TEST_CASE("without bounds on sizes, only deleting vertices changes the mesh, and fewer triangles miss the step") {
+  Random random = seeded_generator("thinning");
+  std::int64_t before = 0, after = 0;
+  for (std::int64_t tried = 0; more_cases(tried, 30, after < before); ++tried) {
+    const Pslg domain = random_outline(random, 20 + static_cast<int>(random() % 80));
+    Asked asked(random, domain, 12);
+    if (tried % 3 == 0) asked.request.decomposition.subdomains = 4;
+    VerifyOptions options;
+    const Made thinned = made(domain, asked.request);
+    const VerifyReport report = asked.verified(thinned.mesh, domain, options);
+    CHECK_MESSAGE(report.accepted(), report_text(report, options));
+    const job::Request with_step = asked.request;
+    asked.request.sizing = {};
+    const Mesh plain = made(domain, asked.request).mesh;
+    asked.request = with_step;
+    const std::uint64_t of_plain = asked.verified(plain, domain, options).step.above;
+    INFO("case ", tried, ": ", plain.triangles.size(), " triangles, thinned ", thinned.mesh.triangles.size());
+    CHECK(report.step.above <= of_plain);
+    CHECK(thinned.mesh.triangles.size() <= plain.triangles.size());
+    before += static_cast<std::int64_t>(of_plain);
+    after += static_cast<std::int64_t>(report.step.above);
+  }
+  std::printf("triangles above the bound: %ld, thinned %ld\n", static_cast<long>(before), static_cast<long>(after));
+  CHECK(after < before);
+}
