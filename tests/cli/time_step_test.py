@@ -43,7 +43,13 @@ class Depths:
         (ax, ay), (bx, by), (cx, cy) = corners
         places = []
         for (px, py), (qx, qy) in ((corners[0], corners[1]), (corners[1], corners[2]), (corners[2], corners[0])):
-            places += [(px + k / 64 * (qx - px), py + k / 64 * (qy - py)) for k in range(65)]
+            cuts = {0, 1}
+            for first, p, q, count in ((self.west, px, qx, self.columns), (self.south, py, qy, self.rows)):
+                cuts.update((first + k * self.step - p) / (q - p) for k in range(count)
+                            if min(p, q) < first + k * self.step < max(p, q))
+            cuts = sorted(cuts)
+            ways = [a + k / 12 * (b - a) for a, b in zip(cuts, cuts[1:]) for k in range(13)]
+            places += [(px + t * (qx - px), py + t * (qy - py)) for t in ways]
         for j in range(self.rows):
             for i in range(self.columns):
                 x, y = self.west + i * self.step, self.south + j * self.step
@@ -94,11 +100,11 @@ class TimeSteps(Cli):
             asked += ["--courant-speed", speed] if speed else []
             altitude = self.rng.random() < 0.5
             asked += ["--courant-length", "altitude"] if altitude else []
-            said = self.succeed("mesh", "coast.poly", *asked, "--area", 3e5, "-o", "coast.node", "-o", "coast.ele",
+            said = self.succeed("mesh", "coast.poly", *asked, "--area", 3e5, "-o", "mesh.node",
                                 "--json", "run.json")
             record = json.loads((self.folder / "run.json").read_text())["time_step"]
             steps = []
-            for corners in read_mesh(self.folder / "coast"):
+            for corners in read_mesh(self.folder / "mesh"):
                 edges = [math.dist(corners[k], corners[k - 1]) for k in range(3)]
                 (ax, ay), (bx, by), (cx, cy) = corners
                 twice = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
@@ -109,11 +115,11 @@ class TimeSteps(Cli):
             self.assertLessEqual(record["triangles_above"], sum(s < step * 1.002 for s in steps))
             told = re.search(r"^time step    (\S+) s holds \(Courant 0.5\)", said, re.MULTILINE)
             self.assertAlmostEqual(float(told.group(1)) / min(steps), 1, delta=3e-3)
-            checked = self.run_program("check", "coast.node", "coast.poly", *asked, "--area", 3e5, "--angle", 20)
+            checked = self.run_program("check", "mesh.node", "coast.poly", *asked, "--area", 3e5, "--angle", 20)
             self.assertEqual(checked.returncode, 0, checked.stdout)
             told = re.search(r"^time step      (\S+) s holds", checked.stdout, re.MULTILINE)
             self.assertAlmostEqual(float(told.group(1)) / min(steps), 1, delta=3e-3)
-            strict = self.run_program("check", "coast.node", "coast.poly", *asked, "--area", 3e5, "--strict")
+            strict = self.run_program("check", "mesh.node", "coast.poly", *asked, "--area", 3e5, "--strict")
             self.assertEqual(strict.returncode, 1 if record["triangles_above"] else 0)
             self.assertEqual("large Courant number" in strict.stdout, record["triangles_above"] > 0)
 
