@@ -8,48 +8,31 @@
 #include "driftmesh/error.hpp"
 
 namespace driftmesh {
-namespace {
 
-constexpr unsigned kFlags = boost::archive::no_header | boost::archive::no_codecvt;
-
-/// A stream that appends to sealed bytes.
-class ByteSink : public std::streambuf {
- public:
-  explicit ByteSink(SealedBytes& bytes) : bytes_(bytes) {}
-
- protected:
-  std::streamsize xsputn(const char* data, std::streamsize size) override {
-    bytes_.append(data, static_cast<std::size_t>(size));
-    return size;
-  }
-  int_type overflow(int_type c) override {
-    const char byte = traits_type::to_char_type(c);
-    bytes_.append(&byte, 1);
-    return c;
-  }
-
- private:
-  SealedBytes& bytes_;
-};
-
-/// A stream that reads sealed bytes.
-class ByteSource : public std::streambuf {
- public:
-  explicit ByteSource(SealReader& bytes) : bytes_(bytes) {}
-
- protected:
-  std::streamsize xsgetn(char* to, std::streamsize size) override {
-    return static_cast<std::streamsize>(bytes_.read(to, static_cast<std::size_t>(size)));
-  }
-
- private:
-  SealReader& bytes_;
-};
-
-}  // namespace
+static constexpr unsigned kArchiveFlags = boost::archive::no_header | boost::archive::no_codecvt;
 
 struct RawWriter::Archive {
-  explicit Archive(SealedBytes& bytes) : sink(bytes), archive(sink, kFlags) {}
+  /// A stream that appends to sealed bytes.
+  class ByteSink : public std::streambuf {
+   public:
+    explicit ByteSink(SealedBytes& bytes) : bytes_(bytes) {}
+
+   protected:
+    std::streamsize xsputn(const char* data, std::streamsize size) override {
+      bytes_.append(data, static_cast<std::size_t>(size));
+      return size;
+    }
+    int_type overflow(int_type c) override {
+      const char byte = traits_type::to_char_type(c);
+      bytes_.append(&byte, 1);
+      return c;
+    }
+
+   private:
+    SealedBytes& bytes_;
+  };
+
+  explicit Archive(SealedBytes& bytes) : sink(bytes), archive(sink, kArchiveFlags) {}
   ByteSink sink;
   boost::archive::binary_oarchive archive;
 };
@@ -62,7 +45,21 @@ void RawWriter::save(const void* data, std::size_t size) {
 }
 
 struct RawReader::Archive {
-  explicit Archive(SealReader& bytes) : source(bytes), archive(source, kFlags) {}
+  /// A stream that reads sealed bytes.
+  class ByteSource : public std::streambuf {
+   public:
+    explicit ByteSource(SealReader& bytes) : bytes_(bytes) {}
+
+   protected:
+    std::streamsize xsgetn(char* to, std::streamsize size) override {
+      return static_cast<std::streamsize>(bytes_.read(to, static_cast<std::size_t>(size)));
+    }
+
+   private:
+    SealReader& bytes_;
+  };
+
+  explicit Archive(SealReader& bytes) : source(bytes), archive(source, kArchiveFlags) {}
   ByteSource source;
   boost::archive::binary_iarchive archive;
 };
