@@ -7,6 +7,7 @@ usage: time_step_test.py DRIFTMESH [unittest options]
 import json
 import math
 import os
+import pathlib
 import random
 import re
 import subprocess
@@ -144,6 +145,23 @@ class TimeSteps(Cli):
             self.succeed("check", "coast.vtu", "coast.poly", *asked, *small, "--angle", 20)
         self.assertLess(max(counts) / min(counts), 1.1)
         self.assertLess(max(counts), 3e8 / 100 / 20)
+
+    def test_deleting_vertices_helps_altitudes(self):
+        """The bay of the tutorial, with a channel and a trench: 18 triangles are above the bound, and would be 78."""
+        west, south, step, columns, rows = -76.0, 36.89, 0.002, 190, 415
+        lines = [f"ncols {columns}", f"nrows {rows}", f"xllcenter {west}", f"yllcenter {south}", f"cellsize {step}"]
+        for j in reversed(range(rows)):
+            y = south + j * step
+            channel = -75.80 + 0.05 * math.sin(9 * (y - south))
+            lines.append(" ".join(
+                f"{3 + 17 * math.exp(-((x - channel) / 0.06) ** 2) + 30 * math.exp(-((y - 37.3 - 0.1 * (x + 75.8)) / 0.0008) ** 2):.2f}"
+                for x in (west + step * i for i in range(columns))))
+        (self.folder / "depth.asc").write_text("\n".join(lines) + "\n")
+        bay = pathlib.Path(__file__).resolve().parents[2] / "examples/coast/bay.geojson"
+        size = "min(44714*sqrt(9.81*depth)/400, 0.4*depth/max(slope(depth), 0.001), 400 + 0.1*distance(1, 2))"
+        self.succeed("mesh", bay, "--simplify", 100, "--raster", "depth=depth.asc", "--depth", "depth", "--size", size,
+                     "--courant-step", 8, "--courant-length", "altitude", "--json", "run.json")
+        self.assertLess(json.loads((self.folder / "run.json").read_text())["time_step"]["triangles_above"], 45)
 
     def test_the_mesh_is_the_same_on_threads_and_ranks(self):
         self.draw(12)
