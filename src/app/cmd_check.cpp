@@ -23,6 +23,7 @@
 #include "driftmesh/repair.hpp"
 #include "io/mesh_file.hpp"
 #include "job/check.hpp"
+#include "job/contour.hpp"
 #include "job/domain.hpp"
 #include "job/files.hpp"
 #include "job/memory.hpp"
@@ -52,15 +53,16 @@ struct CheckOptions {
 
 /// Keeps what has polygons as the file has it, too.
 std::optional<InputFile> read_and_repair(CheckOptions& options, const job::Request::Input& asked) {
-  if (options.input.empty()) return std::nullopt;
-  InputFile input = read_input(options.input, asked.layers);
+  if (options.input.empty() && asked.contour.empty()) return std::nullopt;
+  InputFile input = asked.contour.empty() ? read_input(options.input, asked.layers) : job::contour_input(asked);
   if (!input.pslg.polygons.empty()) {
     options.given = input.pslg;
     options.verify.given = &options.given;
   }
   options.verify.moved = asked.snap + asked.simplify;
   options.verify.holes = asked.holes;
-  const RepairReport repairs = job::clean_input(asked, options.input, input.pslg);
+  const std::string name = asked.contour.empty() ? options.input : job::contour_files(asked);
+  const RepairReport repairs = job::clean_input(asked, name, input.pslg);
   if (!options.quiet) print(repairs.summary());
   return input;
 }
@@ -146,6 +148,7 @@ int run_check(CheckOptions& options) {
   job::Request request;
   in_words_of_options(options.bounds, {}, [&] {
     options.bounds.apply(request);
+    request.input.file = options.input;
     job::check(request, job::kOnePiece);
   });
   options.verify.plain = request.bounds;

@@ -35,6 +35,7 @@ struct DecomposeCommand {
 job::Request request_of(const GivenKeys& given) {
   job::Request request;
   given.apply(request);
+  if (request.input.file.empty() && request.input.contour.empty()) throw cli::UsageError("INPUT is missing");
   if (request.decomposition.subdomains == 0)
     throw job::KeyError("decomposition.subdomains", "is 0", "it must be at least 1");
   job::check(request, job::kSubdomains);
@@ -74,16 +75,16 @@ void run_decompose(const DecomposeCommand& command) {
   StagedFiles files;
   if (!command.output.empty()) write_decomposition(d, domain.pslg, command.output);
   if (!command.picture.empty())
-    plot_decomposition(
-        d, command.picture,
-        fmt::format("{}: {} subdomains", std::filesystem::path(request.input.file).filename().string(), d.size()));
+    plot_decomposition(d, command.picture,
+                       fmt::format("{}: {} subdomains",
+                                   std::filesystem::path(job::input_name(request)).filename().string(), d.size()));
   files.commit();
   if (!command.quiet) print(summary(d, report, seconds));
 }
 
 std::vector<cli::Option> decompose_options(DecomposeCommand& command) {
   std::vector<cli::Option> all = key_options(job::kDecompose, command.given);
-  for (cli::Option& option : all) option.required = option.name == "input" || option.name == "subdomains";
+  for (cli::Option& option : all) option.required = option.name == "subdomains";
   std::ranges::move(std::vector<cli::Option>{{.name = "output",
                                               .letter = 'o',
                                               .value = "FILE",

@@ -14,6 +14,9 @@
 #include "cli/values.hpp"
 #include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
+#include "job/check.hpp"
+#include "job/contour.hpp"
+#include "job/domain.hpp"
 #include "job/files.hpp"
 #include "job/input_file.hpp"
 #include "job/make.hpp"
@@ -74,13 +77,13 @@ job::Request request_of(const PlotCommand& command) {
   job::Request request;
   command.sizes.apply(request);
   request.input.file = command.input;
-  const job::Request::Sizing& sizing = request.sizing;
-  if (int width = 0, height = 0; is_in_pixels(sizing.expression, width, height))
-    throw cli::UsageError("--size is '" + sizing.expression +
-                          "', but means lengths of edges; a picture has --pixels WxH");
-  if (sizing.expression.empty() && sizing.background.empty())
-    throw cli::UsageError("pictures of sizes need --size or --size-mesh");
+  job::check(request, job::kOnePiece);
   return request;
+}
+
+void require_lengths(const std::string& expression) {
+  if (int width = 0, height = 0; is_in_pixels(expression, width, height))
+    throw cli::UsageError("--size is '" + expression + "', but means lengths of edges; a picture has --pixels WxH");
 }
 
 DomainShape shape_of(const job::TriangulatedDomain& made) {
@@ -93,8 +96,7 @@ DomainShape shape_of(const job::TriangulatedDomain& made) {
   return shape;
 }
 
-void draw_sizes(const PlotCommand& command) {
-  const job::Request request = request_of(command);
+void draw_sizes(const PlotCommand& command, const job::Request& request) {
   FileRegistry files;
   job::register_reads(request, job::kPlot, files);
   register_picture(files, command.output, "--output");
@@ -102,6 +104,24 @@ void draw_sizes(const PlotCommand& command) {
   const job::TriangulatedDomain made = job::make_triangulated({request, job::kPlot, job::Given{}}, view);
   const auto length_at = [&](const Point& p) { return made.domain.size->edge_length(p); };
   plot_sizes(shape_of(made), length_at, command.output, command.plot);
+}
+
+/// The domain that a raster describes, or the sizes in a domain.
+void draw_asked(PlotCommand& command) {
+  const job::Request request = request_of(command);
+  const std::filesystem::path name = job::input_name(request);
+  if (command.output.empty()) command.output = name.filename().replace_extension(".png").string();
+  if (command.plot.title.empty()) command.plot.title = title_of(name.string());
+  command.plot.name = name.string();
+  require_lengths(request.sizing.expression);
+  const job::Request::Sizing& sizing = request.sizing;
+  if (!sizing.expression.empty() || !sizing.background.empty())
+    return draw_sizes(command, request);
+  if (request.input.contour.empty()) throw cli::UsageError("pictures of sizes need --size or --size-mesh");
+  FileRegistry files;
+  job::register_reads(request, job::kPlot, files);
+  register_picture(files, command.output, "--output");
+  plot(job::contour_input(request.input).pslg, command.output, command.plot);
 }
 
 void register_files(const PlotCommand& command) {
@@ -115,11 +135,12 @@ void register_files(const PlotCommand& command) {
 
 void run_plot(const cli::Call& call, PlotCommand& command) {
   if (call.has("pixels") && call.has("width")) throw cli::UsageError("--pixels includes the width: leave out --width");
+  if (!command.sizes.items.empty()) return in_words_of_options(command.sizes, {}, [&] { draw_asked(command); });
+  if (command.input.empty()) throw cli::UsageError("INPUT is missing");
   const std::filesystem::path input(command.input);
   if (command.output.empty()) command.output = input.filename().replace_extension(".png").string();
   if (command.plot.title.empty()) command.plot.title = title_of(command.input);
   command.plot.name = command.input;
-  if (!command.sizes.items.empty()) return in_words_of_options(command.sizes, {}, [&] { draw_sizes(command); });
   register_files(command);
   if (holds_input(command.input))
     plot(read_input(command.input).pslg, command.output, command.plot);
@@ -135,7 +156,6 @@ std::vector<cli::Option> plot_options(PlotCommand& command) {
        .help = "A mesh (" + mesh_files_read() +
                ") or an input (.poly, or a .node without .ele). - reads a .vtu from standard input, -.msh and -.poly "
                "the other formats",
-       .required = true,
        .completes = cli::Option::Completes::kFile,
        .take = cli::into(command.input)},
       {.name = "output",

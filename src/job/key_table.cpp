@@ -59,14 +59,14 @@ Section input_section() {
        key("input.contour", &R::input, &R::Input::contour,
            "Make the domain where a raster is above a level, instead of reading a file: depth=0, or below it: "
            "elevation<0. Sides of the raster are open sea (marker 3), the rest is land (1) and islands (2)",
-           option("contour", "NAME=LEVEL"), entry_points(kMesh | kExperiment)),
+           option("contour", "NAME=LEVEL"), entry_points(kMesh | kDecompose | kCheck | kExperiment | kPlot)),
        key("input.contour-box", &R::input, &R::Input::contour_box,
            "West, south, east and north limits of such a domain, in the coordinates of the raster",
-           option("contour-box", "W,S,E,N"), entry_points(kMesh | kExperiment)),
+           option("contour-box", "W,S,E,N"), entry_points(kMesh | kDecompose | kCheck | kExperiment | kPlot)),
        key("input.contour-seeds", &R::input, &R::Input::contour_seeds,
            "Points in such a domain, in the coordinates of the raster: the parts around them are the domain, "
            "instead of the largest part",
-           option("contour-seeds", "X,Y,..."), entry_points(kMesh | kExperiment)),
+           option("contour-seeds", "X,Y,..."), entry_points(kMesh | kDecompose | kCheck | kExperiment | kPlot)),
        key("input.snap", &R::input, &R::Input::snap,
            "Join vertices at most this far apart, and vertices with segments that near: closes gaps and slivers of the "
            "input. No vertex moves by more; the report has the largest move. 0: join nothing",

@@ -59,6 +59,20 @@ class Contours(Cli):
         coarse = self.record(*common, "--simplify", "0.1", "-o", "coarse.vtu", "-n", "5")
         self.assertLess(coarse["input"]["points"], fine["input"]["points"] / 2)
         self.succeed("check", "coarse.vtu")
+        # Every command that knows an input knows this one.
+        domain = common[:4]
+        self.succeed("check", "fine.vtu", *domain, "--size", common[5])
+        self.succeed("check", "coarse.vtu", *domain, "--simplify", "0.1")
+        self.assertEqual(self.run_program("check", "fine.vtu", *domain, "--contour-box", "1000,2000,1005,2005").returncode, 1)
+        self.refuse("check", "fine.vtu", "depth.asc", *domain, code=2, says=["--contour", "another one is given"])
+        self.succeed("plot", *domain, "-o", "domain.svg")
+        self.succeed("plot", *domain, "--size", common[5], "-o", "sizes.svg")
+        self.assertNotEqual(*(len((self.folder / name).read_text()) for name in ("domain.svg", "sizes.svg")))
+        self.succeed("plot", *domain)
+        self.assertIn("depth.png", self.files())
+        self.refuse("plot", "-o", "nothing.png", code=2, says=["INPUT is missing"])
+        self.succeed("decompose", *domain, "-n", "4", "-o", "sea.decomposition", "--plot", "parts.svg")
+        self.refuse("decompose", "-n", "4", code=2, says=["INPUT is missing"])
 
     def test_degrees_become_meters(self):
         self.write("depth.asc", grid_text(101, 101, 0.1, (0, 40), lambda x, y: basin(x, y - 40)).replace("cellsize 0.1", "cellsize 0.01"))
