@@ -1,16 +1,18 @@
-// Nanoseconds per query of a size field. A refiner makes about one for each point that it inserts.
+// Nanoseconds per query of what size fields are compiled from. A refiner makes about one for each point that it
+// inserts.
 #include <benchmark/benchmark.h>
 
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <random>
 #include <vector>
 
 #include "driftmesh/pslg.hpp"
-#include "sizing/background_field.hpp"
+#include "sizing/background_function.hpp"
 #include "sizing/expression_field.hpp"
 
 namespace {
@@ -18,7 +20,7 @@ namespace {
 using namespace driftmesh;
 
 /// The unit square as n x n cells of two triangles; grid lines are concentrated near the origin by `power`.
-BackgroundMesh square(int n, double power) {
+std::shared_ptr<const BackgroundMesh> square(int n, double power) {
   std::vector<Point> points;
   std::vector<BackgroundMesh::Triangle> triangles;
   for (int j = 0; j <= n; ++j)
@@ -29,7 +31,7 @@ BackgroundMesh square(int n, double power) {
       triangles.push_back({a, b, c});
       triangles.push_back({a, c, d});
     }
-  return {std::move(points), std::move(triangles)};
+  return std::make_shared<const BackgroundMesh>(std::move(points), std::move(triangles));
 }
 
 std::vector<Point> random_points(double low, double high) {
@@ -40,27 +42,27 @@ std::vector<Point> random_points(double low, double high) {
   return points;
 }
 
-void ask(benchmark::State& state, const SizeField& field, const std::vector<Point>& points) {
+void ask(benchmark::State& state, const PlaneFunction& function, const std::vector<Point>& points) {
   for (auto _ : state)
-    for (const Point& p : points) benchmark::DoNotOptimize(field.edge_length(p));
+    for (const Point& p : points) benchmark::DoNotOptimize(function.at(p));
   state.counters["call"] = benchmark::Counter(
       static_cast<double>(points.size()), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 void vertex_field(benchmark::State& state, double power, double low, double high) {
-  BackgroundMesh mesh = square(static_cast<int>(state.range(0)), power);
-  std::vector<double> lengths(mesh.points().size(), 1);
-  ask(state, VertexSizeField(std::move(mesh), std::move(lengths)), random_points(low, high));
+  const auto mesh = square(static_cast<int>(state.range(0)), power);
+  ask(state, *BackgroundFunction::of_points(mesh, std::vector<double>(mesh->points().size(), 1)),
+      random_points(low, high));
 }
 
 void area_field(benchmark::State& state) {
-  BackgroundMesh mesh = square(static_cast<int>(state.range(0)), 1);
-  const std::vector<double> areas(mesh.triangles().size(), 1);
-  ask(state, TriangleAreaField(std::move(mesh), areas), random_points(0, 1));
+  const auto mesh = square(static_cast<int>(state.range(0)), 1);
+  ask(state, *BackgroundFunction::of_areas(mesh, std::vector<double>(mesh->triangles().size(), 1)),
+      random_points(0, 1));
 }
 
 void expression(benchmark::State& state) {
-  ask(state, ExpressionField("0.01 + 0.1*hypot(x, y)"), random_points(0, 1));
+  ask(state, *ExpressionField("0.01 + 0.1*hypot(x, y)").function(), random_points(0, 1));
 }
 
 /// A coast around the middle of the unit square, with bays within bays, as one closed line of so many segments.
@@ -87,7 +89,8 @@ std::vector<Point> points_in_rows() {
 /// The first questions make the squares that answer the others.
 void distance(benchmark::State& state) {
   const Pslg pslg = coast(static_cast<int>(state.range(0)));
-  ask(state, ExpressionField("distance() + 1", 0, std::numeric_limits<double>::infinity(), &pslg), points_in_rows());
+  ask(state, *ExpressionField("distance() + 1", 0, std::numeric_limits<double>::infinity(), &pslg).function(),
+      points_in_rows());
 }
 
 BENCHMARK_CAPTURE(vertex_field, inside, 1, 0, 1)->Arg(10)->Arg(100)->Arg(500);

@@ -27,4 +27,5 @@
 #include "driftmesh/simplify.hpp"
 #include "driftmesh/size_field.hpp"
 #include "driftmesh/size_on_mesh.hpp"
+#include "driftmesh/size_rule.hpp"
 #include "driftmesh/version.hpp"

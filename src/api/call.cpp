@@ -5,10 +5,18 @@
 
 #include "api/library_request.hpp"
 #include "base/key_error.hpp"
+#include "driftmesh/size_rule.hpp"
 #include "job/check.hpp"
 #include "job/here.hpp"
+#include "sizing/described_field.hpp"
 
 namespace driftmesh {
+
+const SizeField* described_field(const std::function<double(const Point&)>& function) {
+  if (const auto* rule = function.target<SizeRule>()) return &rule->field();
+  const auto* reference = function.target<std::reference_wrapper<const SizeField>>();
+  return reference == nullptr ? nullptr : dynamic_cast<const DescribedField*>(&reference->get());
+}
 
 double FunctionField::edge_length(const Point& p) const {
   const double length = function_(p);
@@ -30,6 +38,9 @@ Call::Call(const Pslg& input, const MeshOptions& options, const balancer::Policy
     : options_(options), request_(request_of(options)), size_(options.size), watch_(options) {
   given_.input = &input;
   if (options.size) given_.size = &size_;
+  if (const SizeField* described = described_field(options.size)) given_.size = described;
+  const auto* rule = options.size.target<SizeRule>();
+  calls_back_ = given_.size == &size_ || (rule != nullptr && rule->calls_back());
   given_.decomposition = options.subdomains.given.get();
   given_.policies = policies;
   if (const auto& own = options.balance.own) given_.policies = [own](const std::string&, const auto&) { return own; };
@@ -40,7 +51,7 @@ job::PlaceKind Call::place() const {
 }
 
 std::int32_t Call::threads() const {
-  const bool only_this_one = request_.run.threads == 0 && given_.size != nullptr;
+  const bool only_this_one = request_.run.threads == 0 && calls_back_;
   return only_this_one ? 1 : job::threads_of(request_);
 }
 

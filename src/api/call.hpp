@@ -14,6 +14,10 @@
 
 namespace driftmesh {
 
+/// The size field of the library that a caller has passed as a function: a SizeRule, or size_on_mesh by std::ref. Null
+/// if it is none.
+[[nodiscard]] const SizeField* described_field(const std::function<double(const Point&)>& function);
+
 /// A size field from a function of the caller.
 class FunctionField final : public SizeField {
  public:
@@ -64,6 +68,7 @@ class Call {
   const MeshOptions& options_;
   job::Request request_;
   FunctionField size_;
+  bool calls_back_ = false;  // whether sizes come from a function of the caller
   job::Given given_;
   CallerWatch watch_;
 };

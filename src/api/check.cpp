@@ -33,7 +33,8 @@ job::Request requirements_of(const MeshOptions& options) {
 /// One, if there is a `size`: the caller's may not be made for more.
 std::size_t threads_for(const MeshOptions& options) {
   if (options.threads > 0) return static_cast<std::size_t>(options.threads);
-  return options.size ? 1 : std::max(1U, std::thread::hardware_concurrency());
+  return options.size && described_field(options.size) == nullptr ? 1
+                                                                  : std::max(1U, std::thread::hardware_concurrency());
 }
 
 std::vector<CheckReport::Finding> findings_of(const Findings& found) {
@@ -71,7 +72,8 @@ CheckReport check_against(const Mesh& mesh, const Pslg* input, const MeshOptions
     domain = *input;
     static_cast<void>(job::clean_input(request.input, job::input_name(request), domain));
   }
-  const FunctionField size(options.size);
+  const FunctionField function(options.size);
+  SizeSource source;
   VerifyOptions asked{.min_angle = request.bounds.angle,
                       .plain = request.bounds,
                       .given = input,
@@ -85,8 +87,12 @@ CheckReport check_against(const Mesh& mesh, const Pslg* input, const MeshOptions
   open_all(rasters, box, {});
   const std::shared_ptr<const Raster> depth = rasters.depths();
   if (asked.courant.step > 0) asked.depth = depth.get();
-  if (options.size) {
-    asked.size = &size;
+  if (const SizeField* described = described_field(options.size)) {
+    source = job::exact_size_of(*described, input != nullptr ? &domain : nullptr, Box::of(mesh.points));
+    asked.size = source.field.get();
+    asked.size_is_compiled = true;
+  } else if (options.size) {
+    asked.size = &function;
     asked.size_spacing = job::sizing_of(request.sizing, box).spacing;
   }
   return report_of(input != nullptr ? verify(mesh, domain, asked) : verify(mesh, asked), asked);

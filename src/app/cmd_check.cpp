@@ -138,7 +138,7 @@ VerifyReport read_and_verify(CheckOptions& options, const job::Request& request)
   options.verify.size = options.size.get();
   // Lengths whose growth is limited cannot fall much between the points that are looked up anyway.
   if (!request.sizing.expression.empty() && request.sizing.gradation == 0) options.verify.size_spacing = sizes.spacing;
-  options.verify.size_is_compiled = !request.sizing.expression.empty();
+  options.verify.size_is_compiled = !request.sizing.expression.empty() || !request.sizing.background.empty();
   VerifyReport report = mesh.verify(input, options.verify);
   if (!options.quiet) print(fmt::format("digest         {:016x}\n", mesh.digest()));
   return report;

@@ -2,6 +2,7 @@
 
 #include "base/narrow.hpp"
 #include "geometry/hilbert_sort.hpp"
+#include "geometry/triangle_geometry.hpp"
 
 namespace driftmesh {
 namespace {
@@ -55,17 +56,22 @@ BoxTree::BoxTree(const std::vector<Box>& boxes) {
   levels_.push_back(std::move(level));
 }
 
-BoxTree::Least BoxTree::least(const std::vector<double>& values) const {
-  Least all;
-  for (std::size_t level = 0; level < levels_.size(); ++level) {
-    std::vector<double>& here = all.emplace_back(levels_[level].size(), std::numeric_limits<double>::infinity());
-    if (level == 0)
-      std::transform(items_.begin(), items_.end(), here.begin(), [&](std::int32_t item) { return values[item]; });
-    else
-      for (std::size_t i = 0; i < all[level - 1].size(); ++i)
-        here[i / kChildren] = std::min(here[i / kChildren], all[level - 1][i]);
+std::int32_t BoxTree::beside(const Point& p) const {
+  std::size_t begin = 0, end = levels_.back().size(), found = 0;
+  for (std::size_t level = levels_.size(); level-- > 0;) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = begin; i < end; ++i) {
+      const double here = driftmesh::squared_distance(levels_[level][i].center(), p);
+      if (i == begin || here < least) {
+        least = here;
+        found = i;
+      }
+    }
+    if (level == 0) break;
+    begin = kChildren * found;
+    end = children_end(level, found);
   }
-  return all;
+  return items_[found];
 }
 
 }  // namespace driftmesh

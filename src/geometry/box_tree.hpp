@@ -23,20 +23,7 @@ class BoxTree {
   /// must accept every box that contains an accepted one.
   template <class Enter, class Visit>
   void search(Enter&& enter, Visit&& visit) const {
-    search_nodes([&](std::size_t level, std::size_t i) { return enter(levels_[level][i]); }, visit);
-  }
-
-  /// The least value in each node, for search_below.
-  using Least = std::vector<std::vector<double>>;
-  /// `values`: one for each item.
-  [[nodiscard]] Least least(const std::vector<double>& values) const;
-
-  /// search() for the items with values below `limit` whose boxes overlap `box`.
-  template <class Visit>
-  void search_below(const Least& least, double limit, const Box& box, Visit&& visit) const {
-    search_nodes(
-        [&](std::size_t level, std::size_t i) { return least[level][i] < limit && levels_[level][i].overlaps(box); },
-        visit);
+    if (!levels_.empty()) visit_below(levels_.size() - 1, 0, levels_.back().size(), enter, visit);
   }
 
   /// search() for the boxes that contain p.
@@ -44,6 +31,9 @@ class BoxTree {
   void visit_containing(const Point& p, Visit&& visit) const {
     search([&p](const Box& box) { return box.contains(p); }, visit);
   }
+
+  /// An item near p, not always the nearest, found by following the nearest box from the top. There must be items.
+  [[nodiscard]] std::int32_t beside(const Point& p) const;
 
   /// Calls visit(i, j), i < j, once for every two items whose boxes overlap, in an order that depends on the tree
   /// alone.
@@ -69,14 +59,9 @@ class BoxTree {
   };
 
   template <class Enter, class Visit>
-  void search_nodes(Enter&& enter, Visit& visit) const {
-    if (!levels_.empty()) visit_below(levels_.size() - 1, 0, levels_.back().size(), enter, visit);
-  }
-
-  template <class Enter, class Visit>
   void visit_below(std::size_t level, std::size_t begin, std::size_t end, Enter& enter, Visit& visit) const {
     for (std::size_t i = begin; i < end; ++i) {
-      if (!enter(level, i)) continue;
+      if (!enter(levels_[level][i])) continue;
       if (level == 0)
         visit(items_[i]);
       else

@@ -109,6 +109,14 @@ void check_step(const Request::Sizing& sizing, const std::string& depth) {
 }
 
 void check_sizes(const Request::Bounds& bounds, const Request::Sizing& sizing) {
+  const bool has_sources = !sizing.expression.empty() || !sizing.background.empty();
+  require(sizing.tree.empty() || (!has_sources && sizing.longest == 0), "sizing.tree",
+          "has all lengths, so that it cannot be combined with {sizing.size}, {sizing.background} or {sizing.max}",
+          "remove it or these");
+  require(sizing.tree.empty() || (bounds.triangles == 0 && bounds.triangles_per_rank == 0), "sizing.tree",
+          "cannot be combined with a number of triangles", "remove one, or give {bounds.area}");
+  require(sizing.save_tree.empty() || has_sources, "sizing.save-tree",
+          "saves the lengths of {sizing.size} and {sizing.background}, but neither is given", "give one of them");
   require(bounds.area == 0 || bounds.triangles == 0, "bounds.triangles", "cannot be combined with {bounds.area}",
           "remove one of them");
   require(bounds.triangles_per_rank == 0 || (bounds.area == 0 && bounds.triangles == 0), "bounds.triangles-per-rank",
@@ -154,8 +162,8 @@ void check_method(const Request& request) {
   if (request.run.method != Method::kDecoupled) return;
   require(request.run.presplit != Presplit::kOff, "run.presplit",
           "is off, but the decoupled method splits interfaces beforehand", "remove it, or use the coupled method");
-  require(request.sizing.expression.empty() && request.sizing.background.empty(), "run.method",
-          "is decoupled, which needs the same bound on size everywhere, but lengths vary",
+  require(request.sizing.expression.empty() && request.sizing.background.empty() && request.sizing.tree.empty(),
+          "run.method", "is decoupled, which needs the same bound on size everywhere, but lengths vary",
           "give {bounds.area} or {bounds.triangles} instead of lengths, or use the coupled method");
 }
 
@@ -164,7 +172,8 @@ void check_pdr(const Request& request, PlaceKind place) {
   if (request.run.method != Method::kPdr) return;
   require(place == kRanks || place == kSimulated, "run.method", "is pdr, which only experiments have",
           "use driftmesh run");
-  require(request.sizing.expression.empty() && request.sizing.background.empty() && request.sizing.longest == 0,
+  require(request.sizing.expression.empty() && request.sizing.background.empty() && request.sizing.tree.empty() &&
+              request.sizing.longest == 0,
           "run.method", "is pdr, which needs the same bound on size everywhere, but lengths vary",
           "give {bounds.area} or {bounds.triangles} instead of lengths, or use the coupled method");
   require(request.bounds.area > 0 || request.bounds.triangles > 0 || request.bounds.triangles_per_rank > 0,

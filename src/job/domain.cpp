@@ -19,6 +19,7 @@
 #include "mesh/with_seeds.hpp"
 #include "pslg/generators.hpp"
 #include "pslg/names.hpp"
+#include "sizing/described_field.hpp"
 #include "sizing/sampled_field.hpp"
 
 namespace driftmesh::job {
@@ -181,12 +182,35 @@ void warn(const Request& request, std::span<const std::string> warnings, Watch& 
   if (listed < warnings.size()) watch.warn(more(listed));
 }
 
+namespace {
+
+/// What a caller describes, for the domain of other options.
+SizingOptions in_domain(SizingOptions asked, const SizingOptions& other) {
+  asked.spacing = other.spacing;
+  asked.domain = other.domain;
+  asked.input = other.input;
+  asked.outline = other.outline;
+  return asked;
+}
+
+}  // namespace
+
 SizeSource size_of(const Request::Sizing& sizing, const NamedRasters& rasters, const SizeField* given,
                    const Pslg& pslg) {
   SizingOptions options = sizing_of(sizing, pslg);
   options.rasters = rasters;
   if (given == nullptr) return make_size(options);
-  return {std::make_unique<SampledField>(*given, SampledField::Grid{options.domain.low, options.spacing})};
+  if (const auto* described = dynamic_cast<const DescribedField*>(given))
+    return make_size(in_domain(described->asked(), options));
+  return {std::make_unique<SampledField>(*given, SampledField::Grid{options.domain.low, options.spacing}), nullptr};
+}
+
+SizeSource exact_size_of(const SizeField& described, const Pslg* input, const Box& box) {
+  const Request::Sizing plain;
+  SizingOptions asked = in_domain(dynamic_cast<const DescribedField&>(described).asked(),
+                                  input != nullptr ? sizing_of(plain, *input) : sizing_of(plain, box));
+  asked.exact = true;
+  return make_size(asked);
 }
 
 CourantRule courant_of(const Request::Sizing& sizing) {
@@ -212,6 +236,7 @@ SizingOptions sizing_of(const Request::Sizing& asked, const Box& box) {
   sizing.spacing = std::max(box.high.x - box.low.x, box.high.y - box.low.y) / static_cast<double>(asked.resolution);
   sizing.expression = asked.expression;
   sizing.background = asked.background;
+  sizing.tree = asked.tree;
   if (asked.gradation > 0) sizing.gradation = asked.gradation;
   sizing.shortest = asked.shortest;
   if (asked.longest > 0) sizing.longest = asked.longest;

@@ -32,10 +32,10 @@ struct Domain {
   Pslg pslg;               ///< repaired
   std::string projection;  ///< see InputFile
   RepairReport repairs;
-  SimplifyReport simplified;                   ///< without its points
-  Rasters rasters;                             ///< open
-  std::shared_ptr<const SizeField> size;       ///< null: none is asked for
-  const BackgroundMesh* background = nullptr;  ///< the one that the size field uses
+  SimplifyReport simplified;                         ///< without its points
+  Rasters rasters;                                   ///< open
+  std::shared_ptr<const SizeField> size;             ///< null: none is asked for
+  std::shared_ptr<const BackgroundMesh> background;  ///< the one that the size field uses; null: none
   InsertionRules rules;
   std::shared_ptr<const TimeStep> step;  ///< null: none is asked for
 };
@@ -59,6 +59,10 @@ void warn(const Request& request, std::span<const std::string> warnings, Watch& 
 /// every rank. `rasters`: those that the expression may name. Null if there is none. Throws InputError, FileError.
 [[nodiscard]] SizeSource size_of(const Request::Sizing& sizing, const NamedRasters& rasters, const SizeField* given,
                                  const Pslg& pslg);
+
+/// What a caller describes (a DescribedField), as check() judges it: as its sources give it, in this box. `input`: the
+/// domain, which is not owned, or null.
+[[nodiscard]] SizeSource exact_size_of(const SizeField& described, const Pslg* input, const Box& box);
 
 /// The time step that the request asks for, with its raster of depths, which is open; null if there is none.
 [[nodiscard]] std::shared_ptr<const TimeStep> step_of(const Request::Sizing& sizing, const Rasters& rasters);

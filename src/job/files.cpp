@@ -29,6 +29,7 @@ void register_reads(const Request& request, EntryPoint entry_point, FileRegistry
   if (!request.input.file.empty()) reads(input_files(request.input.file), "input.file");
   for (const auto& [name, text] : request.input.rasters) reads(files_in(text), "input.rasters");
   if (!request.sizing.background.empty()) reads(background_files(request.sizing.background), "sizing.background");
+  if (!request.sizing.tree.empty()) reads({request.sizing.tree}, "sizing.tree");
   if (!request.decomposition.file.empty()) reads({request.decomposition.file}, "decomposition.file");
   if (!request.mapping.file.empty()) reads(mapping_files(request.mapping.file), "mapping.file");
   if (!request.cluster.costs.empty()) reads({request.cluster.costs}, "cluster.costs");

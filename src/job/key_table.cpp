@@ -129,6 +129,12 @@ Section triangle_section() {
            "Target edge lengths from a background mesh: FILE.node and FILE.ele, with the length as the first "
            "attribute of each point, or FILE.area with an area bound for each triangle",
            file(), option("size-mesh", "FILE"), entry_points(kSizes)),
+       key("sizing.tree", &R::sizing, &R::Sizing::tree,
+           "Target edge lengths that were compiled and saved before, for the same domain, in place of all others",
+           file(), option("size-tree", "FILE"), entry_points(kMesh | kDecompose | kExperiment | kPlot)),
+       key("sizing.save-tree", &R::sizing, &R::Sizing::save_tree,
+           "Save the target edge lengths, compiled for this domain, for --size-tree", output_file(),
+           option("save-size-tree", "FILE"), entry_points(kMesh)),
        key("sizing.gradation", &R::sizing, &R::Sizing::gradation,
            "Limit on the growth of target edge lengths per unit of distance; 0.2 to 0.3 works well; 0: no limit",
            from(0), option("gradation", "G"), entry_points(kSizes)),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "base/stopwatch.hpp"
 #include "distributed/piece_series.hpp"
@@ -11,6 +12,7 @@
 #include "job/rank_report.hpp"
 #include "job/write_files.hpp"
 #include "mesh/narrow_place.hpp"
+#include "sizing/size_tree_file.hpp"
 
 namespace driftmesh::job {
 namespace {
@@ -108,6 +110,19 @@ std::int32_t ranks_counted(const Place& place) {
   return (place.kind() & kMany) != 0 ? place.ranks() : 1;
 }
 
+/// Where the lengths are compiled at all, they are those of a size tree.
+void save_sizes(const Request& request, const Domain& domain, const Triangulated& triangulated, Watch& watch) {
+  if (request.sizing.save_tree.empty()) return;
+  std::vector<CornerPoints> triangles;
+  const Triangulation& mesh = triangulated.mesh;
+  for (const TriangleId t : ids_of(mesh.triangles))
+    if (mesh.triangles[t].alive()) triangles.push_back({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
+  timed(watch, "save sizes", [&] {
+    write_size_tree(dynamic_cast<const SizeTree&>(*domain.size), triangles, domain_digest(domain.pslg),
+                    request.sizing.save_tree);
+  });
+}
+
 Order order_for(const Asked& asked, const Place& place, RunRecord& record, Watch& watch) {
   const Request& request = asked.request;
   check(request, place.kind(), asked.given.policies);
@@ -119,6 +134,7 @@ Order order_for(const Asked& asked, const Place& place, RunRecord& record, Watch
   Domain domain = read_domain(request, asked.given, watch);
   record_domain(record, request, domain);
   Triangulated triangulated = triangulate_domain(request, domain, ranks_counted(place), place.cut(request), watch);
+  save_sizes(request, domain, triangulated, watch);
   if (!triangulated.cut) return in_one_piece(asked, place, std::move(domain), std::move(triangulated), record);
   return in_subdomains(asked, place, std::move(domain), triangulated, record, watch);
 }

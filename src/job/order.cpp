@@ -37,6 +37,7 @@ Bytes head_of(const Order& order) {
   writer.value(Letter::kOrder);
   writer.text(order.sizing.expression);
   writer.text(order.sizing.background);
+  writer.text(order.sizing.tree);
   transfer_rest(writer, order);
   writer.text(order.scratch);
   order.rasters.write(writer);
@@ -47,6 +48,7 @@ Order order_from(ByteReader& head) {
   Order order;
   order.sizing.expression = head.text();
   order.sizing.background = head.text();
+  order.sizing.tree = head.text();
   transfer_rest(head, order);
   order.scratch = head.text();
   order.rasters = Rasters::read(head);

@@ -16,6 +16,7 @@ std::string sizing_words(const Request::Sizing& sizing) {
   const auto add = [&](const std::string& what) { words += (words.empty() ? "" : ", ") + what; };
   if (!sizing.expression.empty()) add(sizing.expression);
   if (!sizing.background.empty()) add(sizing.background);
+  if (!sizing.tree.empty()) add(sizing.tree);
   if (sizing.gradation > 0) add("gradation " + shortest_text(sizing.gradation));
   if (sizing.shortest > 0) add("at least " + shortest_text(sizing.shortest));
   if (sizing.longest > 0) add("at most " + shortest_text(sizing.longest));

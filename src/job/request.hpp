@@ -67,7 +67,9 @@ struct Request {
   struct Sizing {
     std::string expression;
     std::string background;
-    double gradation = 0;  ///< 0: lengths are taken as they are
+    std::string tree{};       ///< a file of compiled lengths, in place of all others; empty: none
+    std::string save_tree{};  ///< the file that compiled lengths are saved in; empty: none
+    double gradation = 0;     ///< 0: lengths are taken as they are
     double shortest = 0;
     double longest = 0;  ///< 0: no limit
     std::int64_t resolution = defaults::kSizeResolution;

@@ -41,21 +41,28 @@ std::optional<Point> middle_inside(const CornerPoints& triangle, const Point& a,
 }  // namespace
 
 /// The edges of all triangles that have an area, sorted by their ends.
-std::vector<BackgroundMesh::Edge> BackgroundMesh::edges_of(const std::vector<Triangle>& triangles,
-                                                           const std::vector<bool>& has_area) {
-  std::vector<Edge> edges;
-  edges.reserve(3 * triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (!has_area[t]) continue;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::int32_t a = triangles[t][i], b = triangles[t][(i + 1) % 3];
-      edges.push_back(
-          {std::min(a, b), std::max(a, b), static_cast<std::int32_t>(t), static_cast<std::uint8_t>(i), a < b});
+std::vector<BackgroundMesh::Edge> BackgroundMesh::edges() const {
+  const auto visit = [&](const auto& take) {
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      if (!has_area_[t]) continue;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::int32_t a = triangles_[t][i], b = triangles_[t][(i + 1) % 3];
+        take(Edge{std::min(a, b), std::max(a, b), static_cast<std::int32_t>(t), static_cast<std::uint8_t>(i), a < b});
+      }
     }
-  }
-  std::sort(edges.begin(), edges.end(), [](const Edge& e, const Edge& f) {
-    return std::tie(e.low, e.high, e.rising, e.triangle) < std::tie(f.low, f.high, f.rising, f.triangle);
-  });
+  };
+  // By the lower end first: there are few for each.
+  std::vector<std::size_t> begin(points_.size() + 1, 0);
+  visit([&](const Edge& edge) { ++begin[edge.low + 1]; });
+  for (std::size_t i = 0; i < points_.size(); ++i) begin[i + 1] += begin[i];
+  std::vector<Edge> edges(begin.back());
+  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+  visit([&](const Edge& edge) { edges[next[edge.low]++] = edge; });
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    std::sort(edges.begin() + static_cast<std::ptrdiff_t>(begin[i]),
+              edges.begin() + static_cast<std::ptrdiff_t>(begin[i + 1]), [](const Edge& e, const Edge& f) {
+                return std::tie(e.high, e.rising, e.triangle) < std::tie(f.high, f.rising, f.triangle);
+              });
   return edges;
 }
 
@@ -63,24 +70,24 @@ BackgroundMesh::BackgroundMesh(std::vector<Point> points, std::vector<Triangle> 
     : points_(std::move(points)), triangles_(std::move(triangles)) {
   require_corners(triangles_, points_.size());
   std::vector<Box> boxes(triangles_.size());
-  std::vector<bool> has_area(triangles_.size());
+  has_area_.resize(triangles_.size());
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto index = static_cast<std::int32_t>(t);
     const double turn = orient2d(corner(index, 0), corner(index, 1), corner(index, 2));
     if (turn < 0) std::swap(triangles_[t][1], triangles_[t][2]);
-    has_area[t] = turn != 0;
+    has_area_[t] = turn != 0;
     for (std::size_t i = 0; i < 3; ++i) boxes[t].extend(corner(index, i));
   }
-  if (std::find(has_area.begin(), has_area.end(), true) == has_area.end())
+  if (std::find(has_area_.begin(), has_area_.end(), true) == has_area_.end())
     throw Error("background mesh: no triangle has an area");
   triangle_tree_ = BoxTree(boxes);
-  connect(edges_of(triangles_, has_area));
+  connect(edges());
 }
 
 /// Notes what lies across each edge. An edge is on the boundary when no triangle has it in the other direction.
 void BackgroundMesh::connect(const std::vector<Edge>& edges) {
-  std::vector<Triangle> neighbors(triangles_.size(), {-1, -1, -1});
-  const auto across = [&](const Edge& edge) -> std::int32_t& { return neighbors[edge.triangle][edge.corner]; };
+  neighbors_.assign(triangles_.size(), {-1, -1, -1});
+  const auto across = [&](const Edge& edge) -> std::int32_t& { return neighbors_[edge.triangle][edge.corner]; };
   std::vector<Box> boxes;
   for (std::size_t first = 0, last = 0; first < edges.size(); first = last + 1) {
     last = first;
@@ -95,20 +102,6 @@ void BackgroundMesh::connect(const std::vector<Edge>& edges) {
     }
   }
   boundary_tree_ = BoxTree(boxes);
-  walk_ = TriangleWalk(points_, triangles_, neighbors);
-}
-
-std::vector<BackgroundMesh::Ends> BackgroundMesh::edges() const {
-  std::vector<bool> with_area(triangles_.size());
-  for (std::size_t t = 0; t < triangles_.size(); ++t) with_area[t] = has_area(static_cast<std::int32_t>(t));
-  std::vector<Ends> ends;
-  for (const Edge& edge : edges_of(triangles_, with_area))
-    if (const Ends own{edge.low, edge.high}; ends.empty() || ends.back() != own) ends.push_back(own);
-  return ends;
-}
-
-bool BackgroundMesh::has_area(std::int32_t triangle) const {
-  return orient2d(corner(triangle, 0), corner(triangle, 1), corner(triangle, 2)) != 0;
 }
 
 template <class Visit>
@@ -122,9 +115,25 @@ void BackgroundMesh::visit_triangles_with(const Point& p, Visit&& visit) const {
   });
 }
 
+/// From a triangle beside the point across edges that separate them: the triangle that has it in its interior; -1 if
+/// the point lies on an edge, or the way meets the boundary or is long.
+BackgroundMesh::Place BackgroundMesh::walk_to(const Point& p) const {
+  constexpr int kMaxSteps = 100;
+  std::int32_t t = triangle_tree_.beside(p);
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const Point &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
+    const std::array<double, 3> opposite{orient2d(b, c, p), orient2d(c, a, p), orient2d(a, b, p)};
+    const std::size_t least = std::min_element(opposite.begin(), opposite.end()) - opposite.begin();
+    if (opposite[least] > 0) return {t, opposite};
+    const std::int32_t next = neighbors_[t][(least + 1) % 3];
+    if (opposite[least] == 0 || next < 0) break;
+    t = next;
+  }
+  return {-1, {}};
+}
+
 BackgroundMesh::Place BackgroundMesh::locate(const Point& p) const {
-  const TriangleWalk::Found found = walk_.find(p);
-  Place place{found.triangle, found.opposite};
+  Place place = walk_to(p);
   if (place.triangle < 0)
     visit_triangles_with(p, [&](std::int32_t t, const std::array<double, 3>& opposite) {
       if (place.triangle < 0 || t < place.triangle) place = {t, opposite};
@@ -133,15 +142,6 @@ BackgroundMesh::Place BackgroundMesh::locate(const Point& p) const {
   const double total = place.weight[0] + place.weight[1] + place.weight[2];
   for (double& w : place.weight) w /= total;
   return place;
-}
-
-std::vector<std::int32_t> BackgroundMesh::triangles_at(const Point& p) const {
-  if (const TriangleWalk::Found inside = walk_.find(p); inside.triangle >= 0) return {inside.triangle};
-  std::vector<std::int32_t> found;
-  visit_triangles_with(p, [&](std::int32_t t, const auto&) { found.push_back(t); });
-  if (found.empty()) found.push_back(nearest_on_boundary(p).triangle);
-  std::sort(found.begin(), found.end());
-  return found;
 }
 
 bool BackgroundMesh::covers(const std::array<Point, 3>& triangle) const {
@@ -177,7 +177,7 @@ std::optional<Point> BackgroundMesh::uncovered(const std::array<Point, 3>& trian
 }
 
 bool BackgroundMesh::is_outside(const Point& p, double by_more_than) const {
-  if (walk_.find(p).triangle >= 0) return false;
+  if (walk_to(p).triangle >= 0) return false;
   bool inside = false;
   visit_triangles_with(p, [&](std::int32_t, const auto&) { inside = true; });
   if (inside) return false;

@@ -7,7 +7,6 @@
 
 #include "driftmesh/point.hpp"
 #include "geometry/box_tree.hpp"
-#include "sizing/triangle_walk.hpp"
 
 namespace driftmesh {
 
@@ -33,7 +32,7 @@ class BackgroundMesh {
   [[nodiscard]] std::array<Point, 3> corners(std::int32_t triangle) const {
     return {corner(triangle, 0), corner(triangle, 1), corner(triangle, 2)};
   }
-  [[nodiscard]] bool has_area(std::int32_t triangle) const;
+  [[nodiscard]] bool has_area(std::int32_t triangle) const { return has_area_[triangle]; }
 
   /// Whether all of a triangle lies in the mesh, as far as its corners and the edges on the boundary of the mesh tell:
   /// no such edge passes through the triangle. Up to rounding.
@@ -43,41 +42,38 @@ class BackgroundMesh {
   /// A point of the triangle that is not in the mesh, by more than rounding, if there is one.
   [[nodiscard]] std::optional<Point> uncovered(const std::array<Point, 3>& triangle) const;
 
-  /// Two points that a triangle with an area has an edge between.
-  using Ends = std::array<std::int32_t, 2>;
-  /// All edges, each once.
-  [[nodiscard]] std::vector<Ends> edges() const;
+  /// An edge of a triangle with an area.
+  struct Edge {
+    std::int32_t low, high;  ///< the ends
+    std::int32_t triangle;
+    std::uint8_t corner;  ///< it runs from this corner of the triangle to the next
+    bool rising;          ///< from low to high
+    [[nodiscard]] bool same_ends(const Edge& other) const { return low == other.low && high == other.high; }
+  };
+  /// The edges that have a triangle on one side alone.
+  [[nodiscard]] const std::vector<Edge>& boundary() const { return boundary_; }
+  [[nodiscard]] const BoxTree& boundary_tree() const { return boundary_tree_; }
 
   /// The place of `p` in the triangle that contains it, the one with the lowest index on a shared edge or corner. For a
   /// point outside the mesh, the place of the nearest point of its boundary. Depends on `p` alone.
   [[nodiscard]] Place locate(const Point& p) const;
 
-  /// All triangles that contain `p`, in ascending order: several on a shared edge or corner. For a point outside, the
-  /// triangle at the nearest point of the boundary.
-  [[nodiscard]] std::vector<std::int32_t> triangles_at(const Point& p) const;
-
  private:
-  struct Edge {
-    std::int32_t low, high;  // the ends
-    std::int32_t triangle;
-    std::uint8_t corner;  // it runs from this corner of the triangle to the next
-    bool rising;          // from low to high
-    [[nodiscard]] bool same_ends(const Edge& other) const { return low == other.low && high == other.high; }
-  };
-
   [[nodiscard]] const Point& corner(std::int32_t triangle, std::size_t i) const {
     return points_[triangles_[triangle][i]];
   }
   template <class Visit>
   void visit_triangles_with(const Point& p, Visit&& visit) const;
-  static std::vector<Edge> edges_of(const std::vector<Triangle>& triangles, const std::vector<bool>& has_area);
+  [[nodiscard]] std::vector<Edge> edges() const;
   void connect(const std::vector<Edge>& edges);
+  [[nodiscard]] Place walk_to(const Point& p) const;
   [[nodiscard]] bool is_outside(const Point& p, double by_more_than) const;
   [[nodiscard]] Place nearest_on_boundary(const Point& p) const;
 
   std::vector<Point> points_;
   std::vector<Triangle> triangles_;  // counterclockwise
-  TriangleWalk walk_;                // answers most queries; the trees answer the others
+  std::vector<bool> has_area_;
+  std::vector<Triangle> neighbors_;  // across the edge from each corner to the next; -1: none
   BoxTree triangle_tree_;
   std::vector<Edge> boundary_;
   BoxTree boundary_tree_;

@@ -7,15 +7,20 @@
 namespace driftmesh {
 
 ExactField::ExactField(std::shared_ptr<const SizeField> field, std::shared_ptr<const PlaneFunction> function,
-                       const Box& domain)
+                       std::shared_ptr<const BackgroundFunction> background, const Box& domain)
     : field_(std::move(field)),
       function_(std::move(function)),
+      background_(std::move(background)),
       domain_(domain),
       cells_(std::size_t{kCells} * std::size_t{kCells}) {}
 
 double ExactField::edge_length(const Point& p) const {
   const double length = function_at(p).at(p);
-  return length > 0 ? length : field_->edge_length(p);
+  return length > 0 || field_ == nullptr ? length : field_->edge_length(p);
+}
+
+void ExactField::visit_marks(const std::function<void(const Point&)>& visit) const {
+  if (background_ != nullptr) background_->visit_marks(visit);
 }
 
 const PlaneFunction& ExactField::function_at(const Point& p) const {

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
 
 #include "driftmesh/size_field.hpp"
 #include "geometry/box.hpp"
+#include "sizing/background_function.hpp"
 #include "sizing/plane_function.hpp"
 
 namespace driftmesh {
@@ -14,9 +16,12 @@ namespace driftmesh {
 /// cells, in each of which the function is narrowed when it is first asked for. Several threads may ask at once.
 class ExactField final : public SizeField {
  public:
-  /// `field`: throws where the function is not positive.
-  ExactField(std::shared_ptr<const SizeField> field, std::shared_ptr<const PlaneFunction> function, const Box& domain);
+  /// `field`: throws where the function is not positive; null if it is positive everywhere. `background`: the part of
+  /// the function that has marks, or null.
+  ExactField(std::shared_ptr<const SizeField> field, std::shared_ptr<const PlaneFunction> function,
+             std::shared_ptr<const BackgroundFunction> background, const Box& domain);
   [[nodiscard]] double edge_length(const Point& p) const override;
+  void visit_marks(const std::function<void(const Point&)>& visit) const override;
 
  private:
   static constexpr int kCells = 256;  // along each side of the domain
@@ -28,6 +33,7 @@ class ExactField final : public SizeField {
 
   std::shared_ptr<const SizeField> field_;
   std::shared_ptr<const PlaneFunction> function_;
+  std::shared_ptr<const BackgroundFunction> background_;
   Box domain_;
   mutable std::vector<Cell> cells_;
 };

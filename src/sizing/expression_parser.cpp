@@ -215,7 +215,7 @@ class Parser {
     else if (name.text == kCurvature)
       emit_function(read_of_outline<OutlineCurvature>(name, curvature_));
     else if (raster != rasters_.end())
-      emit_function(values_of(raster->raster));
+      emit_function(raster->function != nullptr ? raster->function : values_of(raster->raster));
     else
       fail_unknown(name);
   }
@@ -301,7 +301,7 @@ class Parser {
     if (name.kind != Token::kName || !take(")"))
       fail(token_, "the argument of slope is the name of a raster", "write for example slope(depth)");
     const auto raster = std::ranges::find(rasters_, name.text, &NamedRaster::name);
-    if (raster != rasters_.end()) return slope_of(raster->raster);
+    if (raster != rasters_.end() && raster->raster != nullptr) return slope_of(raster->raster);
     const std::string asked(name.text);
     fail(name, "slope asks for the raster '" + asked + "', which is not given" + suggestion(asked, raster_names()),
          KeyText::of("name its file: {input.rasters} {}=FILE", asked));

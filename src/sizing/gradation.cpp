@@ -1,6 +1,8 @@
 #include "sizing/gradation.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <queue>
 #include <utility>
@@ -36,11 +38,22 @@ Neighbors neighbors_along_edges(std::size_t point_count, const std::vector<std::
 void limit_gradation(const std::vector<Point>& points, const std::vector<std::array<std::int32_t, 3>>& triangles,
                      double gradation, std::vector<double>& lengths) {
   const Neighbors neighbors = neighbors_along_edges(points.size(), triangles);
-  // Dijkstra's algorithm from all points at once: the shortest length is final and limits those around it.
+  // Dijkstra's algorithm from all points that lower another: the shortest length is final and limits those around it.
   using Entry = std::pair<double, std::size_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (std::isfinite(lengths[i])) queue.emplace(lengths[i], i);
+  std::vector<Entry> lowering;
+  const auto limit_from = [&](std::size_t i, std::size_t j) {
+    return lengths[i] + gradation * std::sqrt(squared_distance(points[i], points[j]));
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto begin = neighbors.points.begin();
+    const auto lowers = [&](std::int32_t j) {
+      return lengths[i] < lengths[j] && limit_from(i, static_cast<std::size_t>(j)) < lengths[j];
+    };
+    if (std::any_of(begin + static_cast<std::ptrdiff_t>(neighbors.begin[i]),
+                    begin + static_cast<std::ptrdiff_t>(neighbors.begin[i + 1]), lowers))
+      lowering.emplace_back(lengths[i], i);
+  }
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue(std::greater<>{}, std::move(lowering));
   while (!queue.empty()) {
     const auto [length, i] = queue.top();
     queue.pop();

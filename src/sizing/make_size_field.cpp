@@ -9,14 +9,14 @@
 #include "base/standard_streams.hpp"
 #include "driftmesh/error.hpp"
 #include "pslg/triangle_files.hpp"
-#include "sizing/background_field.hpp"
-#include "sizing/combined_field.hpp"
 #include "sizing/exact_field.hpp"
 #include "sizing/expression_field.hpp"
 #include "sizing/gradation.hpp"
 #include "sizing/grown_function.hpp"
-#include "sizing/sampled_field.hpp"
+#include "sizing/limited_function.hpp"
 #include "sizing/size_tree.hpp"
+#include "sizing/size_tree_file.hpp"
+#include "sizing/uniform_field.hpp"
 
 namespace driftmesh {
 namespace {
@@ -31,9 +31,12 @@ std::string stem_of(const std::string& path) {
   return path;
 }
 
-BackgroundMesh background_mesh(const NodeTable& nodes, EleTable elements, const std::string& file) {
+using Mesh = std::shared_ptr<const BackgroundMesh>;
+using Background = std::shared_ptr<const BackgroundFunction>;
+
+Mesh background_mesh(const NodeTable& nodes, EleTable elements, const std::string& file) {
   try {
-    return {nodes.points, std::move(elements.triangles)};
+    return std::make_shared<const BackgroundMesh>(nodes.points, std::move(elements.triangles));
   } catch (const Error& error) {
     throw InputError({file}, error.what(), "give a mesh of triangles");
   }
@@ -57,48 +60,29 @@ std::vector<double> lengths_at_points(const NodeTable& nodes, const std::string&
   return lengths;
 }
 
-template <class Field>
-SizeSource source_of(std::unique_ptr<Field> field) {
-  const BackgroundMesh& mesh = field->mesh();
-  return {std::move(field), &mesh};
-}
-
-SizeSource graded_field(BackgroundMesh mesh, std::vector<double> lengths, std::optional<double> gradation) {
-  if (gradation) limit_gradation(mesh.points(), mesh.triangles(), *gradation, lengths);
-  return source_of(std::make_unique<VertexSizeField>(std::move(mesh), std::move(lengths)));
-}
-
-SizeSource area_field(BackgroundMesh mesh, const std::vector<double>& areas, std::optional<double> gradation) {
-  if (!gradation) return source_of(std::make_unique<TriangleAreaField>(std::move(mesh), areas));
+Background of_areas(Mesh mesh, const std::vector<double>& areas, std::optional<double> gradation) {
+  if (!gradation) return BackgroundFunction::of_areas(std::move(mesh), areas);
   std::vector<double> lengths(areas.size());
   std::transform(areas.begin(), areas.end(), lengths.begin(), edge_length_of_area);
-  std::vector<double> at_points = shortest_at_points(mesh, lengths);
-  return graded_field(std::move(mesh), std::move(at_points), gradation);
+  std::vector<double> at_points = shortest_at_points(*mesh, lengths);
+  limit_gradation(mesh->points(), mesh->triangles(), *gradation, at_points);
+  return BackgroundFunction::of_points(std::move(mesh), std::move(at_points));
 }
 
-std::unique_ptr<SizeField> expression_field(const SizingOptions& options) {
+Background of_points(Mesh mesh, std::vector<double> lengths, std::optional<double> gradation) {
+  if (gradation) limit_gradation(mesh->points(), mesh->triangles(), *gradation, lengths);
+  return BackgroundFunction::of_points(std::move(mesh), std::move(lengths));
+}
+
+/// With limited growth, if that is asked for. `field`: gives the lengths of the expression.
+std::shared_ptr<const PlaneFunction> grown(std::shared_ptr<const ExpressionField> field, const SizingOptions& options) {
   constexpr double kNarrow = 0.5, kLittle = 0.1;
   constexpr GrownFunction::Accuracy kExact{.narrow = 0.2, .search = 0.97};
-  const auto field = std::make_shared<const ExpressionField>(options.expression, options.shortest, options.longest,
-                                                             options.input, options.rasters, options.outline);
   std::shared_ptr<const PlaneFunction> function = field->function();
-  if (options.gradation)
-    function = std::make_shared<const GrownFunction>(
-        field, function, *options.gradation, options.domain,
-
-        options.exact ? kExact : GrownFunction::Accuracy{std::min(kNarrow, kLittle / *options.gradation)},
-        options.spacing);
-  if (options.exact) return std::make_unique<ExactField>(field, function, options.domain);
-  return std::make_unique<SizeTree>(field, function, options.domain, options.spacing, SizeTree::Rules{});
-}
-
-/// A background mesh tells all about what lies in it, but not what the nearest points of its boundary say outside.
-std::unique_ptr<SizeField> sampled_outside(SizeSource source, const SizingOptions& options) {
-  const BackgroundMesh& mesh = *source.background;
-  if (mesh.covers(options.domain) || !std::isfinite(options.spacing)) return std::move(source.field);
-  const auto inside = [&mesh](const std::array<Point, 3>& triangle) { return mesh.covers(triangle); };
-  return std::make_unique<SampledField>(std::move(source.field),
-                                        SampledField::Grid{options.domain.low, options.spacing}, inside);
+  if (!options.gradation) return function;
+  const GrownFunction::Accuracy compiled{std::min(kNarrow, kLittle / *options.gradation)};
+  return std::make_shared<const GrownFunction>(std::move(field), std::move(function), *options.gradation,
+                                               options.domain, options.exact ? kExact : compiled, options.spacing);
 }
 
 void require_sound(const SizingOptions& options) {
@@ -111,7 +95,7 @@ void require_sound(const SizingOptions& options) {
 
 }  // namespace
 
-SizeSource read_background_field(const std::string& path, std::optional<double> gradation) {
+Background read_background(const std::string& path, std::optional<double> gradation) {
   if (gradation && !(*gradation > 0 && std::isfinite(*gradation)))
     throw InputError({"gradation"}, std::to_string(*gradation), "it must be positive; 0.2 to 0.3 grade well");
   if (is_standard_stream(path))
@@ -121,10 +105,9 @@ SizeSource read_background_field(const std::string& path, std::optional<double> 
   const NodeTable nodes = read_node(stem + ".node");
   EleTable elements = read_ele(stem + ".ele", nodes);
   const std::size_t triangle_count = elements.triangles.size();
-  BackgroundMesh mesh = background_mesh(nodes, std::move(elements), stem + ".ele");
-  if (has_ending(path, ".area"))
-    return area_field(std::move(mesh), read_area(stem + ".area", triangle_count), gradation);
-  return graded_field(std::move(mesh), lengths_at_points(nodes, stem + ".node"), gradation);
+  Mesh mesh = background_mesh(nodes, std::move(elements), stem + ".ele");
+  if (has_ending(path, ".area")) return of_areas(std::move(mesh), read_area(stem + ".area", triangle_count), gradation);
+  return of_points(std::move(mesh), lengths_at_points(nodes, stem + ".node"), gradation);
 }
 
 std::vector<std::string> background_files(const std::string& path) {
@@ -137,20 +120,33 @@ std::vector<std::string> background_files(const std::string& path) {
 
 SizeSource make_size(const SizingOptions& options) {
   require_sound(options);
-  SizeSource made;
-  std::vector<std::unique_ptr<SizeField>> fields;
-  if (!options.expression.empty()) fields.push_back(expression_field(options));
-  if (!options.background.empty()) {
-    SizeSource source = read_background_field(options.background, options.gradation);
-    made.background = source.background;
-    fields.push_back(sampled_outside(std::move(source), options));
+  if (!options.tree.empty()) return {read_size_tree(options.tree, domain_digest(*options.input)), nullptr};
+  const double shortest = options.shortest > 0 ? options.shortest : intervals::kAll.low;
+  std::vector<std::shared_ptr<const PlaneFunction>> functions;
+  std::shared_ptr<const ExpressionField> expression;
+  if (!options.expression.empty()) {
+    expression = std::make_shared<const ExpressionField>(options.expression, options.shortest, options.longest,
+                                                         options.input, options.rasters, options.outline);
+    functions.push_back(grown(expression, options));
   }
-  const bool is_bounded = options.background.empty() && !fields.empty();  // what the expression is by itself
-  if (std::isfinite(options.longest) && !is_bounded) fields.push_back(std::make_unique<UniformField>(options.longest));
-  if (fields.size() == 1 && (options.shortest == 0 || is_bounded))
-    made.field = std::move(fields.front());
-  else if (!fields.empty())
-    made.field = std::make_unique<SmallestField>(std::move(fields), options.shortest);
+  Background background = options.lengths;
+  if (!options.background.empty()) background = read_background(options.background, options.gradation);
+  if (background != nullptr) {
+    const bool is_limited = options.shortest > 0 || std::isfinite(options.longest);
+    functions.push_back(is_limited ? limited(background, shortest, options.longest) : background);
+  }
+  if (functions.empty()) {
+    if (!std::isfinite(options.longest)) return {};
+    return {std::make_unique<UniformField>(options.longest), nullptr};
+  }
+  SizeSource made;
+  if (background != nullptr) made.background = background->mesh();
+  std::shared_ptr<const PlaneFunction> function = least_of(std::move(functions));
+  if (options.exact)
+    made.field = std::make_unique<ExactField>(expression, std::move(function), background, options.domain);
+  else
+    made.field =
+        std::make_unique<SizeTree>(expression, std::move(function), options.domain, options.spacing, SizeTree::Rules{});
   return made;
 }
 

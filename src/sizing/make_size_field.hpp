@@ -9,7 +9,7 @@
 #include "driftmesh/pslg.hpp"
 #include "driftmesh/size_field.hpp"
 #include "geometry/box.hpp"
-#include "sizing/background_mesh.hpp"
+#include "sizing/background_function.hpp"
 #include "sizing/medial_axis.hpp"
 #include "sizing/named_raster.hpp"
 
@@ -19,14 +19,18 @@ namespace driftmesh {
 struct SizingOptions {
   /// A target edge length in x and y; see ExpressionField. Empty: none.
   std::string expression{};
-  /// A background mesh; see read_background_field. Empty: none.
+  /// A background mesh; see read_background. Empty: none.
   std::string background{};
+  /// The same in memory, with its gradation.
+  std::shared_ptr<const BackgroundFunction> lengths{};
+  /// A file that write_size_tree wrote for the domain, instead of all others; see read_size_tree. Empty: none.
+  std::string tree{};
   /// By how much lengths may grow per unit of distance, > 0; absent: no limit. 0.2 to 0.3 grade well. Those of the
   /// background mesh along its edges, those of the expression along straight lines in the box of the domain.
   std::optional<double> gradation{};
   double longest = std::numeric_limits<double>::infinity();  ///< target edge lengths are at most this, > 0
   double shortest = 0;  ///< target edge lengths are at least this: smaller values are raised to it
-  /// Fields that do not tell their least values are looked at on a grid of this spacing, > 0: see SampledField.
+  /// Where the function does not tell that it is positive, squares are no narrower than this, > 0: see SizeTree.
   double spacing = std::numeric_limits<double>::infinity();
   /// The domain.
   Box domain{};
@@ -41,23 +45,24 @@ struct SizingOptions {
   bool exact = false;
 };
 
-/// A size field, and the background mesh in it if there is one.
+/// A size field, and the background mesh in it; null: none.
 struct SizeSource {
   std::unique_ptr<SizeField> field;
-  const BackgroundMesh* background = nullptr;  ///< lives as long as the field
+  std::shared_ptr<const BackgroundMesh> background;
 };
 
 /// The field that the options ask for; null when they ask for nothing. Throws InputError and FileError.
 [[nodiscard]] SizeSource make_size(const SizingOptions& options);
 [[nodiscard]] std::unique_ptr<SizeField> make_size_field(const SizingOptions& options);
 
-/// A size field from files in Triangle's format. `path` is their common stem, or one of them:
+/// Lengths from files in Triangle's format. `path` is their common stem, or one of them:
 /// - mesh, mesh.node, mesh.ele: the first attribute of each point is the target edge length there, linear in between;
 /// - mesh.area: the area bound of each triangle, <= 0 for none. With a gradation the bounds first become lengths at the
 ///   points (the shortest around each), limited and linear in between; without one they hold triangle by triangle.
-[[nodiscard]] SizeSource read_background_field(const std::string& path, std::optional<double> gradation);
+[[nodiscard]] std::shared_ptr<const BackgroundFunction> read_background(const std::string& path,
+                                                                        std::optional<double> gradation);
 
-/// The files that read_background_field reads.
+/// The files that read_background reads.
 [[nodiscard]] std::vector<std::string> background_files(const std::string& path);
 
 }  // namespace driftmesh

@@ -11,10 +11,11 @@ namespace driftmesh {
 
 class Raster;
 
-/// A raster that size expressions call by a name.
+/// A raster, or another function, that size expressions call by a name.
 struct NamedRaster {
   std::string name;
   std::shared_ptr<const Raster> raster;
+  std::shared_ptr<const PlaneFunction> function{};  ///< in place of a raster
 };
 using NamedRasters = std::vector<NamedRaster>;
 

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <string>
 #include <utility>
+
+#include "driftmesh/error.hpp"
 
 namespace driftmesh {
 namespace {
@@ -32,6 +35,11 @@ bool meet(const CornerPoints& t, const Box& bounds, const Box& box) {
 
 double power_of_two(int exponent) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
+}
+
+[[noreturn]] void throw_outside(const Point& p) {
+  throw Error("compiled sizes are asked for near (" + std::to_string(p.x) + ", " + std::to_string(p.y) +
+              "), outside of the domain that they were compiled for");
 }
 
 /// The least power of two above a length.
@@ -121,6 +129,12 @@ SizeTree::SizeTree(std::shared_ptr<const SizeField> field, std::shared_ptr<const
                             length_at(*function_, {root.low.x, root.high.y}), length_at(*function_, root.high)};
 }
 
+/// Without squares.
+SizeTree::SizeTree()
+    : top_(std::make_unique<Quarters>()),
+      shelves_(std::make_unique<std::array<Shelf, kShelves * kShelves>>()),
+      directory_(std::size_t{1} << (2 * kDirectoryLevel)) {}
+
 SizeTree::~SizeTree() = default;
 
 /// Relative to the width of the root, as all lengths in nodes; 0 for what is no length.
@@ -165,6 +179,7 @@ std::uintptr_t SizeTree::compile(Node& node, const Place& place, Quarters& aroun
   const std::lock_guard lock(shelf.lock);
   if (const std::uintptr_t state = node.state.load(std::memory_order_relaxed); state != 0) return state;
   const Box box = box_of(place);
+  if (around.source == nullptr) throw_outside(box.center());
   const double width = power_of_two(-place.level);
   const PlaneFunction& function = *around.source->function;
   const Variation found = function.over(box);
@@ -229,6 +244,81 @@ void SizeTree::divide(Node& node, const Place& place, std::shared_ptr<const Plan
   node.state.store(reinterpret_cast<std::uintptr_t>(&quarters), std::memory_order_release);
 }
 
+// ---- As numbers ----
+
+void SizeTree::pack(std::span<const CornerPoints> triangles, ByteWriter& writer) const {
+  Node& root = top_->nodes[0];
+  for (const CornerPoints& t : triangles) compile_in(t, root, {}, *top_);
+  for (const double number : {low_.x, low_.y, width_, least_, steepest_, rules_.tolerance}) writer.number(number);
+  writer.number(static_cast<std::int32_t>(deepest_));
+  pack(root, writer);
+}
+
+/// With a margin around the triangle, for rounding.
+void SizeTree::compile_in(const CornerPoints& triangle, Node& node, const Place& place, Quarters& around) const {
+  constexpr double kMargin = 0x1p-20, kLeastMargin = 0x1p-44;
+  const Box box = box_of(place);
+  const double margin = kMargin * (box.high.x - box.low.x) + kLeastMargin * width_;
+  if (!meet(triangle, Box::of(triangle), Box::around(box.low, box.high, margin))) return;
+  const std::uintptr_t state = compiled(node, place, around);
+  if (Node::is_leaf(state)) {
+    if (Node::kind(state) != kUnknown) return;
+    const Point p = box.center();
+    throw Error("sizes near (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ") are known at points alone");
+  }
+  Quarters& quarters = *Node::quarters(state);
+  for (std::uint64_t k = 0; k < 4; ++k)
+    compile_in(triangle, quarters.nodes[k], {2 * place.i + k % 2, 2 * place.j + k / 2, place.level + 1}, quarters);
+}
+
+/// For each node a byte: 0 if it is not compiled, 1 if it is divided, and otherwise 2 and the kind of the leaf. Then
+/// its least length, and the lengths at the corners and the error of leaves; then the quarters.
+void SizeTree::pack(const Node& node, ByteWriter& writer) const {
+  const std::uintptr_t state = node.state.load(std::memory_order_acquire);
+  const bool is_leaf = Node::is_leaf(state);
+  writer.number(static_cast<std::uint8_t>(state == 0 ? 0 : is_leaf ? 2 + Node::kind(state) : 1));
+  if (state == 0) return;
+  writer.number(node.least);
+  if (is_leaf) {
+    for (const float length : node.corners) writer.number(length);
+    writer.number(node.error);
+    return;
+  }
+  for (const Node& quarter : Node::quarters(state)->nodes) pack(quarter, writer);
+}
+
+std::unique_ptr<SizeTree> SizeTree::unpacked(ByteReader& reader) {
+  std::unique_ptr<SizeTree> tree(new SizeTree);
+  for (double* number :
+       {&tree->low_.x, &tree->low_.y, &tree->width_, &tree->least_, &tree->steepest_, &tree->rules_.tolerance})
+    *number = reader.number<double>();
+  tree->deepest_ = reader.number<std::int32_t>();
+  if (!(tree->width_ > 0 && std::isfinite(tree->width_)) || tree->deepest_ < 1 || tree->deepest_ > kDeepest)
+    throw Error("it is no size tree");
+  tree->to_index_ = std::ldexp(1, kDigits) / tree->width_;
+  tree->unpack(tree->top_->nodes[0], {}, reader);
+  return tree;
+}
+
+void SizeTree::unpack(Node& node, const Place& place, ByteReader& reader) {
+  const auto tag = reader.number<std::uint8_t>();
+  if (tag == 0) return;
+  node.least = reader.number<float>();
+  if (tag > 1) {
+    if (tag > 2 + kSteep) throw Error("it is no size tree");
+    for (float& length : node.corners) length = reader.number<float>();
+    node.error = reader.number<float>();
+    leaves_.fetch_add(1, std::memory_order_relaxed);
+    node.state.store(Node::leaf(static_cast<Kind>(tag - 2), place.level), std::memory_order_release);
+    return;
+  }
+  if (place.level == deepest_) throw Error("it is no size tree");
+  Quarters& quarters = shelf_of(place).next();
+  for (std::uint64_t k = 0; k < 4; ++k)
+    unpack(quarters.nodes[k], {2 * place.i + k % 2, 2 * place.j + k / 2, place.level + 1}, reader);
+  node.state.store(reinterpret_cast<std::uintptr_t>(&quarters), std::memory_order_release);
+}
+
 // ---- Squares ----
 
 SizeTree::Square SizeTree::square_of(Node& node, const Place& place, const Box& box, std::uintptr_t state) const {
@@ -289,8 +379,9 @@ inline SizeTree::Found SizeTree::leaf_at(std::uint64_t i, std::uint64_t j, int d
 double SizeTree::edge_length(const Point& p) const {
   std::uint64_t i = 0, j = 0;
   const auto by_itself = [&] {
+    if (function_ == nullptr) throw_outside(p);
     const double length = function_->at(p);
-    return length > 0 ? length : field_->edge_length(p);
+    return length > 0 || field_ == nullptr ? length : field_->edge_length(p);
   };
   if (!find_index(p, i, j)) return by_itself();
   const Found leaf = leaf_at(i, j, deepest_);

@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "base/bytes.hpp"
 #include "driftmesh/size_field.hpp"
 #include "geometry/box.hpp"
 #include "geometry/triangle_geometry.hpp"
@@ -38,7 +40,8 @@ class SizeTree final : public SizeField {
     double steepest = std::numeric_limits<double>::infinity();
   };
 
-  /// The field is `function` where that is positive, and `field` gives the same lengths at points, or throws. Where the
+  /// The field is `function` where that is positive, and `field` gives the same lengths at points, or throws; null if
+  /// the function is positive everywhere. Where the
   /// bounds of the function do not tell that it is positive, squares are no narrower than `finest` > 0, and lengths
   /// those of `field`.
   SizeTree(std::shared_ptr<const SizeField> field, std::shared_ptr<const PlaneFunction> function, const Box& domain,
@@ -46,6 +49,13 @@ class SizeTree final : public SizeField {
   ~SizeTree() override;
   SizeTree(const SizeTree&) = delete;
   SizeTree& operator=(const SizeTree&) = delete;
+
+  /// The squares that meet some triangles, as numbers of fixed layout, after compiling those that are not yet. Throws
+  /// Error where lengths are known at points alone.
+  void pack(std::span<const CornerPoints> triangles, ByteWriter& writer) const;
+  /// A tree of such numbers, which knows lengths in those triangles alone, and throws Error elsewhere. Throws Error for
+  /// other numbers.
+  [[nodiscard]] static std::unique_ptr<SizeTree> unpacked(ByteReader& reader);
 
   /// Throws what the field throws where it asks for no length.
   [[nodiscard]] double edge_length(const Point& p) const override;
@@ -98,6 +108,10 @@ class SizeTree final : public SizeField {
   static constexpr int kDeepest = 40;
   static constexpr std::size_t kShelves = 8;  // along each side of a pattern
 
+  SizeTree();
+  void compile_in(const CornerPoints& triangle, Node& node, const Place& place, Quarters& around) const;
+  void pack(const Node& node, ByteWriter& writer) const;
+  void unpack(Node& node, const Place& place, ByteReader& reader);
   [[nodiscard]] Square square_of(Node& node, const Place& place, const Box& box, std::uintptr_t state) const;
   [[nodiscard]] bool find_index(const Point& p, std::uint64_t& i, std::uint64_t& j) const;
   [[nodiscard]] Found leaf_at(std::uint64_t i, std::uint64_t j, int deepest) const;
@@ -115,7 +129,7 @@ class SizeTree final : public SizeField {
 
   std::shared_ptr<const SizeField> field_;
   std::shared_ptr<const PlaneFunction> function_;
-  double finest_;
+  double finest_ = 0;
   Rules rules_;
   Point low_{};
   double width_ = 0, to_index_ = 0;

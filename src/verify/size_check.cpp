@@ -57,7 +57,7 @@ double SizeCheck::at_corners(const Triangle& triangle) const {
 
 std::optional<SizeCheck::Miss> SizeCheck::find_miss(const Triangle& t, double area) const {
   const double edge = std::sqrt(area * (4 / std::numbers::sqrt3)) * (1 - kRounding);
-  if (const auto miss = at_marks(t, edge)) return miss;
+  if (const auto miss = at_marks(t, at_corners_ * edge)) return miss;
   return at_samples(t, area, kTolerated * edge);
 }
 

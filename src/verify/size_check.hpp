@@ -14,8 +14,7 @@ namespace driftmesh {
 /// triangles is what the mesher used.
 class SizeCheck {
  public:
-  /// Between corners and centroid an edge may be 1 / 0.8 times what is asked for there, except at the marks of the
-  /// field.
+  /// Between corners, centroid and the marks of the field an edge may be 1 / 0.8 times what is asked for.
   static constexpr double kTolerated = 0.8;
 
   using Triangle = std::array<Point, 3>;
@@ -23,7 +22,7 @@ class SizeCheck {
   /// Besides the marks, the field is looked up at 16 points of each triangle, and at four for each square of the
   /// spacing if it has more, but no more than for `most_area`: a larger triangle, which does not fit into the domain,
   /// must not take forever. 0: no spacing. `field` must outlive the object. `at_corners`: an edge may be 1 / this times
-  /// what is asked for at corners and centroid.
+  /// what is asked for at corners, centroid and marks.
   SizeCheck(const SizeField& field, double spacing, double most_area, double at_corners = 1);
 
   /// The length up to which an edge may be for what is asked for at the corners and the centroid.

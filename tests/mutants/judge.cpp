@@ -125,6 +125,8 @@ bool is_close(double a, double b) {
   return a == b || std::fabs(a - b) <= 1e-6 * std::fabs(b);
 }
 
+using BackgroundHandle = std::shared_ptr<const BackgroundFunction>;
+
 /// How many triangles hold the point, by rounded arithmetic.
 std::size_t count_at(const Point& p, const BackgroundMesh& mesh) {
   const auto is_left = [&](const Point& a, const Point& b) {
@@ -139,8 +141,8 @@ std::size_t count_at(const Point& p, const BackgroundMesh& mesh) {
 }
 
 /// At the centroids of triangles that are neither slivers nor covered by others.
-std::string difference_of_lengths(const SizeSource& read, const DeclaredBackground& declared) {
-  const BackgroundMesh& mesh = *read.background;
+std::string difference_of_lengths(const BackgroundHandle& read, const DeclaredBackground& declared) {
+  const BackgroundMesh& mesh = *read->mesh();
   for (std::size_t t = 0; t < declared.mesh.triangles.size(); ++t) {
     const auto index = static_cast<std::int32_t>(t);
     const auto [a, b, c] = mesh.corners(index);
@@ -155,16 +157,15 @@ std::string difference_of_lengths(const SizeSource& read, const DeclaredBackgrou
         expected += declared.lengths[static_cast<std::size_t>(v)] / 3;
     else
       expected = declared.areas[t] > 0 ? std::sqrt(declared.areas[t] * 4 / std::sqrt(3.0)) : INFINITY;
-    if (!is_close(read.field->edge_length(centroid), expected))
-      return "another length in triangle " + std::to_string(t);
+    if (!is_close(read->at(centroid), expected)) return "another length in triangle " + std::to_string(t);
   }
   return "";
 }
 
-std::string difference_of_backgrounds(const SizeSource& read, const DeclaredBackground& declared) {
+std::string difference_of_backgrounds(const BackgroundHandle& read, const DeclaredBackground& declared) {
   Mesh found, expected = declared.mesh;
-  found.points = read.background->points();
-  found.triangles = read.background->triangles();
+  found.points = read->mesh()->points();
+  found.triangles = read->mesh()->triangles();
   for (auto& [a, b, c] : expected.triangles) {
     const auto at = [&](std::int32_t v) { return expected.points[static_cast<std::size_t>(v)]; };
     if (orient2d(at(a), at(b), at(c)) < 0) std::swap(b, c);
@@ -176,7 +177,7 @@ std::string difference_of_backgrounds(const SizeSource& read, const DeclaredBack
 
 Verdict judge_background(const Sample& sample, const Files& files, const std::string& folder) {
   return compared(
-      sample, [&] { return read_background_field(folder + "/" + sample.main, std::nullopt); },
+      sample, [&] { return read_background(folder + "/" + sample.main, std::nullopt); },
       [&] { return declared_background(files, stem_of(sample.main), sample.reading == Reading::kAreas); },
       difference_of_backgrounds);
 }

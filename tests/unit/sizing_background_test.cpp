@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <random>
 #include <vector>
 
 #include "driftmesh/error.hpp"
 #include "geometry/midpoint.hpp"
 #include "geometry/predicates.hpp"
-#include "sizing/background_field.hpp"
+#include "sizing/background_function.hpp"
 #include "sizing/gradation.hpp"
 #include "sizing_mesh_fixture.hpp"
 #include "support/infinity.hpp"
@@ -24,10 +25,22 @@ double linear(const Point& p) {
   return 10 + 0.75 * p.x - 0.3 * p.y;
 }
 
-VertexSizeField linear_field(const FlatMesh& mesh) {
+using Function = std::shared_ptr<const BackgroundFunction>;
+
+Function of_points(const std::vector<Point>& points, const std::vector<BackgroundMesh::Triangle>& triangles,
+                   const std::vector<double>& lengths) {
+  return BackgroundFunction::of_points(std::make_shared<const BackgroundMesh>(points, triangles), lengths);
+}
+
+Function of_areas(const std::vector<Point>& points, const std::vector<BackgroundMesh::Triangle>& triangles,
+                  const std::vector<double>& areas) {
+  return BackgroundFunction::of_areas(std::make_shared<const BackgroundMesh>(points, triangles), areas);
+}
+
+Function linear_field(const FlatMesh& mesh) {
   std::vector<double> lengths;
   for (const Point& p : mesh.points) lengths.push_back(linear(p));
-  return {{mesh.points, mesh.triangles}, lengths};
+  return of_points(mesh.points, mesh.triangles, lengths);
 }
 
 std::vector<Point> random_points(double low, double high, int count) {
@@ -50,32 +63,31 @@ std::vector<Point> telling_points(const FlatMesh& mesh, double n) {
 
 TEST_CASE("linear functions are interpolated exactly") {
   const FlatMesh mesh = square_mesh(12);
-  const VertexSizeField field = linear_field(mesh);
-  for (const Point& p : random_points(0, 12, 3000))
-    CHECK(field.edge_length(p) == doctest::Approx(linear(p)).epsilon(1e-13));
-  for (const Point& p : mesh.points) CHECK(field.edge_length(p) == linear(p));
+  const Function field = linear_field(mesh);
+  for (const Point& p : random_points(0, 12, 3000)) CHECK(field->at(p) == doctest::Approx(linear(p)).epsilon(1e-13));
+  for (const Point& p : mesh.points) CHECK(field->at(p) == linear(p));
 }
 
 TEST_CASE("outside the mesh, the value at the nearest point of its boundary applies") {
   const FlatMesh mesh = square_mesh(12);
-  const VertexSizeField field = linear_field(mesh);
+  const Function field = linear_field(mesh);
   int outside = 0;
   for (const Point& p : random_points(-20, 30, 2000)) {
     const Point nearest{std::clamp(p.x, 0.0, 12.0), std::clamp(p.y, 0.0, 12.0)};
     outside += nearest != p;
-    CHECK(field.edge_length(p) == doctest::Approx(linear(nearest)).epsilon(1e-13));
+    CHECK(field->at(p) == doctest::Approx(linear(nearest)).epsilon(1e-13));
   }
   CHECK(outside > 1000);
 }
 
 TEST_CASE("a hole of the mesh is outside") {
   const FlatMesh mesh = square_mesh(12, 4);  // the hole is the square from 4 to 8
-  const VertexSizeField field = linear_field(mesh);
+  const Function field = linear_field(mesh);
   for (const Point& p : random_points(4, 8, 500)) {
     const double gap[] = {p.x - 4, 8 - p.x, p.y - 4, 8 - p.y};
     const Point nearest[] = {{4, p.y}, {8, p.y}, {p.x, 4}, {p.x, 8}};
     const auto side = std::min_element(gap, gap + 4) - gap;
-    CHECK(field.edge_length(p) == doctest::Approx(linear(nearest[side])).epsilon(1e-13));
+    CHECK(field->at(p) == doctest::Approx(linear(nearest[side])).epsilon(1e-13));
   }
 }
 
@@ -86,48 +98,73 @@ TEST_CASE("the answer depends on the point alone, not on earlier queries") {
   for (std::size_t i = 0; i < mesh.points.size(); ++i)
     lengths.push_back(std::uniform_real_distribution(1.0, 9.0)(random));
   std::vector<Point> points = telling_points(mesh, 10);
-  const VertexSizeField field({mesh.points, mesh.triangles}, lengths);
+  const Function field = of_points(mesh.points, mesh.triangles, lengths);
   std::vector<double> first;
-  for (const Point& p : points) first.push_back(field.edge_length(p));
+  for (const Point& p : points) first.push_back(field->at(p));
   for (int round = 0; round < 3; ++round) {
     std::vector<std::size_t> order(points.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::shuffle(order.begin(), order.end(), random);
-    const VertexSizeField fresh({mesh.points, mesh.triangles}, lengths);
-    for (const std::size_t i : order) CHECK(fresh.edge_length(points[i]) == first[i]);
+    const Function fresh = of_points(mesh.points, mesh.triangles, lengths);
+    for (const std::size_t i : order) CHECK(fresh->at(points[i]) == first[i]);
   }
 }
 
-TEST_CASE("the triangles at a point are those that an exhaustive search finds") {
-  const FlatMesh flat = square_mesh(8, 2, false);
-  const BackgroundMesh mesh(flat.points, flat.triangles);
-  for (const Point& p : telling_points(flat, 8)) {
-    std::vector<std::int32_t> expected;
-    for (std::size_t t = 0; t < flat.triangles.size(); ++t) {
-      const auto& [i, j, k] = flat.triangles[t];
-      const Point &a = flat.points[i], &b = flat.points[j], &c = flat.points[k];
-      const double turn = orient2d(a, b, c);
-      if (orient2d(a, b, p) * turn >= 0 && orient2d(b, c, p) * turn >= 0 && orient2d(c, a, p) * turn >= 0)
-        expected.push_back(static_cast<std::int32_t>(t));
+TEST_CASE("what is known of a box holds at its points, which have the same lengths within it") {
+  std::mt19937_64 random(29);
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  int narrowed = 0, sloped = 0;
+  for (int round = 0; round < 60; ++round) {
+    const FlatMesh mesh = square_mesh(12, round % 3 == 0 ? 4 : 0, round % 2 == 0, random());
+    const bool of_triangles = round % 4 == 3;
+    std::vector<double> values(of_triangles ? mesh.triangles.size() : mesh.points.size());
+    for (double& value : values) value = random() % 40 == 0 ? (of_triangles ? -1 : kInfinity) : between(0.5, 2);
+    const Function all =
+        of_triangles ? of_areas(mesh.points, mesh.triangles, values) : of_points(mesh.points, mesh.triangles, values);
+    CAPTURE(round);
+    std::shared_ptr<const PlaneFunction> function = all;
+    Box box{{between(-3, 10), between(-3, 10)}, {}};
+    box.high = {box.low.x + between(1, 5), box.low.y + between(1, 5)};
+    for (int depth = 0; depth < 5; ++depth) {
+      const Variation known = function->over(box);
+      sloped += std::isfinite(known.steepest());
+      for (int k = 0; k < 40; ++k) {
+        const Point p{between(box.low.x, box.high.x), between(box.low.y, box.high.y)};
+        const Point q{between(box.low.x, box.high.x), between(box.low.y, box.high.y)};
+        const double at_p = function->at(p), at_q = function->at(q);
+        CHECK(at_p == all->at(p));
+        CHECK(known.value.holds(at_p));
+        if (!std::isfinite(known.steepest()) || std::isinf(known.value.low)) continue;
+        CHECK(std::fabs(at_p - at_q) <= known.steepest() * std::hypot(p.x - q.x, p.y - q.y) + 1e-12);
+        const double along_x = function->at({q.x, p.y}) - at_p, along_y = function->at({p.x, q.y}) - at_p;
+        const Interval in_x = intervals::multiply(known.in_x, {q.x - p.x, q.x - p.x});
+        const Interval in_y = intervals::multiply(known.in_y, {q.y - p.y, q.y - p.y});
+        CHECK((in_x.low - 1e-12 <= along_x && along_x <= in_x.high + 1e-12));
+        CHECK((in_y.low - 1e-12 <= along_y && along_y <= in_y.high + 1e-12));
+      }
+      if (const auto within = function->within(box)) {
+        function = within;
+        ++narrowed;
+      }
+      const Point m = box.center();
+      box = random() % 2 == 0 ? Box{box.low, m} : Box{m, box.high};
     }
-    if (expected.empty())
-      CHECK(mesh.triangles_at(p).size() == 1);
-    else
-      CHECK(mesh.triangles_at(p) == expected);
   }
+  CHECK(narrowed > 60);
+  CHECK(sloped > 30);
 }
 
 TEST_CASE("triangles without area are ignored") {
   const std::vector<Point> points{{0, 0}, {1, 0}, {2, 0}, {0, 2}};
-  const VertexSizeField field({points, {{0, 1, 2}, {0, 2, 3}}}, {1, 100, 3, 5});
-  CHECK(field.edge_length({1, 0}) == 2);
-  CHECK(field.edge_length({1, -7}) == 2);
+  const Function field = of_points(points, {{0, 1, 2}, {0, 2, 3}}, {1, 100, 3, 5});
+  CHECK(field->at({1, 0}) == 2);
+  CHECK(field->at({1, -7}) == 2);
 }
 
-TEST_CASE("an unbounded corner makes the triangles around it unbounded") {
-  const VertexSizeField field({{{0, 0}, {1, 0}, {0, 1}}, {{0, 1, 2}}}, {1, 3, kInfinity});
-  CHECK(field.edge_length({0.5, 0}) == 2);
-  CHECK(field.edge_length({0.25, 0.25}) == kInfinity);
+TEST_CASE("an unbounded corner makes the triangles around it unbounded, but not their other edges") {
+  const Function field = of_points({{0, 0}, {1, 0}, {0, 1}}, {{0, 1, 2}}, {1, 3, kInfinity});
+  CHECK(field->at({0.5, 0}) == 2);
+  CHECK(field->at({0.25, 0.25}) == kInfinity);
 }
 
 TEST_CASE("gradation: no edge exceeds the limit, and no larger function respects it") {
@@ -175,16 +212,16 @@ TEST_CASE("gradation spreads only along edges") {
 
 TEST_CASE("area bounds apply triangle by triangle, the largest one where triangles meet") {
   const std::vector<Point> points{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  const TriangleAreaField field({points, {{0, 1, 2}, {0, 2, 3}}}, {0.01, 0.04});
-  const auto area = [&](const Point& p) { return std::sqrt(3.0) / 4 * field.edge_length(p) * field.edge_length(p); };
+  const Function field = of_areas(points, {{0, 1, 2}, {0, 2, 3}}, {0.01, 0.04});
+  const auto area = [&](const Point& p) { return std::sqrt(3.0) / 4 * field->at(p) * field->at(p); };
   CHECK(area({0.7, 0.2}) == doctest::Approx(0.01));
   CHECK(area({0.2, 0.7}) == doctest::Approx(0.04));
   CHECK(area({0.5, 0.5}) == doctest::Approx(0.04));
   CHECK(area({1, 1}) == doctest::Approx(0.04));
   CHECK(area({3, 0.5}) == doctest::Approx(0.01));
-  const TriangleAreaField half_bounded({points, {{0, 1, 2}, {0, 2, 3}}}, {0.01, -1});
-  CHECK(half_bounded.edge_length({0.2, 0.7}) == kInfinity);
-  CHECK(half_bounded.edge_length({0.7, 0.2}) == doctest::Approx(std::sqrt(0.04 / std::sqrt(3.0))));
+  const Function half_bounded = of_areas(points, {{0, 1, 2}, {0, 2, 3}}, {0.01, -1});
+  CHECK(half_bounded->at({0.2, 0.7}) == kInfinity);
+  CHECK(half_bounded->at({0.7, 0.2}) == doctest::Approx(std::sqrt(0.04 / std::sqrt(3.0))));
 }
 
 TEST_CASE("unusable background meshes are rejected") {
@@ -193,10 +230,10 @@ TEST_CASE("unusable background meshes are rejected") {
   CHECK_THROWS_AS(BackgroundMesh(points, {{0, 1, -1}}), Error);
   CHECK_THROWS_AS(BackgroundMesh(points, {{0, 1, 2}}), Error);
   CHECK_THROWS_AS(BackgroundMesh(points, {}), Error);
-  const BackgroundMesh mesh(points, {{0, 1, 3}});
-  CHECK_THROWS_AS(VertexSizeField(mesh, {1, 2, 3}), Error);
-  CHECK_THROWS_AS(VertexSizeField(mesh, {1, 2, 3, 0}), Error);
-  CHECK_THROWS_AS(VertexSizeField(mesh, {1, 2, 3, std::nan("")}), Error);
-  CHECK_THROWS_AS(TriangleAreaField(mesh, {1, 2}), Error);
-  CHECK_THROWS_AS(TriangleAreaField(mesh, {std::nan("")}), Error);
+  const std::vector<BackgroundMesh::Triangle> one{{0, 1, 3}};
+  for (const std::vector<double>& lengths :
+       std::vector<std::vector<double>>{{1, 2, 3}, {1, 2, 3, 0}, {1, 2, 3, std::nan("")}})
+    CHECK_THROWS_AS((void)of_points(points, one, lengths), Error);
+  CHECK_THROWS_AS((void)of_areas(points, one, {1, 2}), Error);
+  CHECK_THROWS_AS((void)of_areas(points, one, {std::nan("")}), Error);
 }

@@ -9,12 +9,14 @@
 #include <vector>
 
 #include "driftmesh/error.hpp"
-#include "sizing/background_field.hpp"
-#include "sizing/combined_field.hpp"
+#include "sizing/background_function.hpp"
 #include "sizing/expression.hpp"
 #include "sizing/expression_field.hpp"
+#include "sizing/limited_function.hpp"
 #include "sizing/make_size_field.hpp"
 #include "sizing/sampled_field.hpp"
+#include "sizing/size_tree.hpp"
+#include "sizing/uniform_field.hpp"
 #include "support/infinity.hpp"
 #include "unit/sizing_mesh_fixture.hpp"
 
@@ -156,16 +158,23 @@ TEST_CASE("a constant is known not to fall anywhere") {
   CHECK(UniformField(3).least() == 3);
 }
 
-TEST_CASE("the smallest of fields falls where one of them does, but not below the shortest length") {
+TEST_CASE("the least of functions falls where one of them does, but not below the shortest length") {
   const auto field = [](double shortest) {
-    std::vector<std::unique_ptr<SizeField>> fields;
-    fields.push_back(std::make_unique<UniformField>(0.5));
-    fields.push_back(compiled("0.001 + abs(y - 0.3)"));
-    return SmallestField(std::move(fields), shortest);
+    const auto crease = std::make_shared<const Expression>("0.001 + abs(y - 0.3)");
+    const auto flat = std::make_shared<const Expression>("0.5");
+    return std::make_unique<SizeTree>(nullptr, limited(least_of({flat, crease}), shortest, kInfinity),
+                                      Box{{0, 0}, {1, 1}}, 1.0 / 2000, SizeTree::Rules{});
   };
-  CHECK(field(0).falls_below(kHalfSquare, 0.01));
-  CHECK(!field(0.02).falls_below(kHalfSquare, 0.01));
-  CHECK(field(0.02).least() == 0.02);
+  CHECK(field(1e-6)->falls_below(kHalfSquare, 0.01));
+  CHECK(!field(0.02)->falls_below(kHalfSquare, 0.01));
+  CHECK(field(0.02)->least() == 0.02);
+  CHECK(field(1e-6)->edge_length({0.5, 0.9}) == doctest::Approx(0.5).epsilon(0.12));
+  const auto nan = std::make_shared<const Expression>("sqrt(x - 0.5)"), one = std::make_shared<const Expression>("1");
+  for (const auto& both : {least_of({nan, one}), least_of({one, nan})}) {
+    CHECK(std::isnan(both->at({0.25, 0})));
+    CHECK(both->over({{0, 0}, {1, 1}}).value.undefined);
+    CHECK(both->at({0.75, 0}) == 0.5);
+  }
 }
 
 TEST_CASE("a sampled field asks once for each point of its grid, and for none outside the triangle") {
@@ -188,26 +197,31 @@ TEST_CASE("a sampled field is searched between the points of its grid where it i
   CHECK(!steep.falls_below(across, 0.0005));
 }
 
-TEST_CASE("a background mesh knows the lengths at its points and along its edges") {
+TEST_CASE("lengths of a background mesh are found at its points and along its edges") {
   // A square with a short length in the middle, and one at a corner.
   const std::vector<Point> points{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {2, 2}};
-  const VertexSizeField field({points, {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}}, {1, 5, 5, 5, 2});
-  CHECK(field.least() == 1);
-  CHECK(field.falls_below({{{1, 1.5}, {3, 1.5}, {2, 3}}}, 2.001));
-  CHECK(!field.falls_below({{{1, 1.5}, {3, 1.5}, {2, 3}}}, 1.7));
+  const auto mesh = std::make_shared<const BackgroundMesh>(
+      points, std::vector<BackgroundMesh::Triangle>{{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
+  const SizeTree field(nullptr, BackgroundFunction::of_points(mesh, {1, 5, 5, 5, 2}), {{0, 0}, {4, 4}}, 0.002,
+                       SizeTree::Rules{});
+  const std::array<Point, 3> around{{{1, 1.5}, {3, 1.5}, {2, 3}}};
+  CHECK(field.falls_below(around, 2 * 1.26));
+  CHECK(!field.falls_below(around, 1.2));
   // Crosses the edge from the corner to the middle, where it holds 1.25 to 1.75: neither is a point inside.
   const std::array<Point, 3> across{{{1.5, 0.5}, {1.6, 0.6}, {0.5, 1.6}}};
-  CHECK(field.falls_below(across, 1.54));
+  CHECK(field.falls_below(across, 1.54 * 1.26));
   CHECK(!field.falls_below(across, 1.4));
 }
 
 TEST_CASE("area bounds hold in triangles that overlap theirs, but not in those that touch it") {
   const std::vector<Point> points{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
-  const TriangleAreaField field({points, {{0, 1, 2}, {0, 2, 3}}}, {std::sqrt(3.0) / 4, -1});
-  CHECK(field.falls_below({{{0, 3}, {3.8, 3.9}, {1, 3.9}}}, 1.1) == false);
-  CHECK(field.falls_below({{{0, 0}, {4, 4}, {0, 4}}}, 1.1) == false);
-  CHECK(field.falls_below({{{1.9, 1.8}, {3, 3.5}, {0, 3.9}}}, 1.1));
-  CHECK(field.falls_below({{{1.9, 1.8}, {3, 3.5}, {0, 3.9}}}, 0.9) == false);
+  const auto mesh =
+      std::make_shared<const BackgroundMesh>(points, std::vector<BackgroundMesh::Triangle>{{0, 1, 2}, {0, 2, 3}});
+  const SizeTree field(nullptr, BackgroundFunction::of_areas(mesh, {std::sqrt(3.0) / 4, -1}), {{0, 0}, {4, 4}}, 0.002,
+                       SizeTree::Rules{});
+  CHECK(!field.falls_below({{{0, 3}, {2.5, 3.9}, {1, 3.9}}}, 2));
+  CHECK(field.falls_below({{{1.9, 1.8}, {3, 3.5}, {0, 3.9}}}, 1.26));
+  CHECK(!field.falls_below({{{1.9, 1.8}, {3, 3.5}, {0, 3.9}}}, 0.99));
 }
 
 TEST_CASE("what a background mesh does not cover") {

@@ -10,7 +10,6 @@
 
 #include "base/read_file.hpp"
 #include "driftmesh/error.hpp"
-#include "sizing/combined_field.hpp"
 #include "sizing/expression.hpp"
 #include "sizing/expression_field.hpp"
 #include "sizing/expression_table.hpp"
@@ -172,15 +171,4 @@ TEST_CASE("a shortest length replaces values that are too small, but not NaN") {
   CHECK(field.edge_length({-3, 0}) == 0.125);
   CHECK(field.edge_length({0.5, 0}) == 0.5);
   CHECK_THROWS_AS((void)ExpressionField("sqrt(x)", 0.125).edge_length({-1, 0}), InputError);
-}
-
-TEST_CASE("the smallest of several fields wins, above the shortest length") {
-  std::vector<std::unique_ptr<SizeField>> fields;
-  fields.push_back(std::make_unique<ExpressionField>("x"));
-  fields.push_back(std::make_unique<UniformField>(2.0));
-  const SmallestField field(std::move(fields), 0.5);
-  CHECK(field.edge_length({1, 0}) == 1);
-  CHECK(field.edge_length({3, 0}) == 2);
-  CHECK(field.edge_length({0.1, 0}) == 0.5);
-  CHECK(SmallestField({}).edge_length({0, 0}) == std::numeric_limits<double>::infinity());
 }
