@@ -9,6 +9,7 @@
 
 #include "api/library_request.hpp"
 #include "decomposition_class.hpp"
+#include "driftmesh/size_rule.hpp"
 #include "job/keys.hpp"
 #include "policy.hpp"
 #include "size_class.hpp"
@@ -123,7 +124,9 @@ void Options::take_callables(Given& given) {
   warning_ = callable(given, "warning");
   if (warning_.is_none()) warning_ = py::module_::import("driftmesh._errors").attr("warn");
   if (py::isinstance<FieldObject>(size_))
-    values_.size = [field = size_.cast<const FieldObject&>().field](const Point& p) { return field->edge_length(p); };
+    values_.size = std::ref(*size_.cast<const FieldObject&>().field);
+  else if (py::isinstance<SizeRule>(size_))
+    values_.size = size_.cast<const SizeRule&>();
   else if (!size_.is_none())
     values_.size = [this](const Point& p) {
       return callbacks_.ask([&] { return number_from("what size returns", size_(p.x, p.y)); });
