@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <string_view>
 
+#include "base/bytes_written.hpp"
 #include "base/words.hpp"
 
 namespace driftmesh::app {
@@ -51,15 +53,35 @@ std::string refining_words(std::int64_t triangles, double forecast, double secon
   return text;
 }
 
-ProgressLine::ProgressLine(bool enabled) : rewrites_(rewrites_lines()) {
+std::string writing_words(const std::string& path, double seconds, std::uint64_t bytes) {
+  std::string text = "writing " + std::filesystem::path(path).filename().string();
+  if (seconds >= 1) text += fmt::format("  {:.0f} s", seconds);
+  if (bytes > 0) text += "  " + bytes_words(bytes);
+  if (bytes > 0 && seconds >= 1)
+    text += fmt::format("  {}/s", bytes_words(static_cast<std::uint64_t>(static_cast<double>(bytes) / seconds)));
+  return text;
+}
+
+ProgressLine::ProgressLine(bool enabled)
+    : rewrites_(rewrites_lines()), due_(Clock::now() + (rewrites_ ? Clock::duration(kFirstAfter) : kFirstLineAfter)) {
   if (enabled) thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
 void ProgressLine::begin(const std::string& stage) {
   const std::lock_guard lock(mutex_);
   stage_ = stage;
-  since_ = Clock::now();
+  file_.clear();
+  since_ = stage_since_ = Clock::now();
   refining_ = false;
+  due_ = std::min<Clock::time_point>(due_, since_ + kFirstLineAfter);
+  wake_.notify_all();
+}
+
+void ProgressLine::writing(const std::string& path) {
+  const std::lock_guard lock(mutex_);
+  file_ = path;
+  since_ = Clock::now();
+  written_before_ = bytes_written();
 }
 
 void ProgressLine::refining(std::int64_t triangles, double forecast) {
@@ -86,27 +108,28 @@ void ProgressLine::end() {
 void ProgressLine::run(const std::stop_token& stop) {
   const Clock::time_point begin = Clock::now();
   std::unique_lock lock(mutex_);
-  Clock::duration wait = rewrites_ ? Clock::duration(kFirstAfter) : kFirstLineAfter;
   while (true) {
-    wake_.wait_for(lock, stop, wait, [] { return false; });
+    while (!stop.stop_requested() && Clock::now() < due_)
+      wake_.wait_until(lock, stop, due_, [this, due = due_] { return due_ != due; });
     if (stop.stop_requested()) return;
     if (rewrites_)
       rewrite_line();
     else
       std::fprintf(stderr, "[%s] %s\n", whole_seconds_words(seconds_since(begin) - 0.5).c_str(), text().c_str());
-    wait = next_wait(begin);
+    due_ = Clock::now() + next_wait();
   }
 }
 
-// The interval between lines is the age of the run.
-ProgressLine::Clock::duration ProgressLine::next_wait(Clock::time_point begin) const {
+// The interval between lines is the age of the stage.
+ProgressLine::Clock::duration ProgressLine::next_wait() const {
   if (rewrites_) return kEvery;
-  return std::min<Clock::duration>(Clock::now() - begin, kLineAtLeastEvery);
+  return std::clamp<Clock::duration>(Clock::now() - stage_since_, kFirstLineAfter, kLineAtLeastEvery);
 }
 
 std::string ProgressLine::text() const {
   const double seconds = seconds_since(since_);
   if (refining_) return refining_words(triangles_, forecast_, seconds);
+  if (!file_.empty()) return writing_words(file_, seconds, bytes_written() - written_before_);
   return seconds >= 1 ? fmt::format("{}  {:.0f} s", stage_, seconds) : stage_;
 }
 

@@ -16,7 +16,7 @@
 namespace driftmesh::app {
 
 RunNotes::RunNotes(const Told& told, const std::string& start, bool silent)
-    : told_(told), silent_(silent || told.request.output.quiet), progress_(!silent_) {
+    : told_(told), silent_(silent || told.request.output.quiet), on_ranks_(!start.empty()), progress_(!silent_) {
   run.command = start + told.command;
 }
 
@@ -34,7 +34,7 @@ void RunNotes::warned(const std::string& warning) {
 }
 
 void RunNotes::refining(std::int64_t triangles, double forecast) {
-  progress_.refining(triangles, forecast);
+  if (!on_ranks_) progress_.refining(triangles, forecast);
 }
 
 void RunNotes::stalled(const std::string& why) {

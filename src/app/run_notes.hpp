@@ -28,6 +28,8 @@ class RunNotes final : public job::Watch {
   void repaired(const RepairReport& repairs) override;
   void warned(const std::string& warning) override;
   void refining(std::int64_t triangles, double forecast) override;
+  void refining_on_all(std::int64_t triangles, double forecast) override { progress_.refining(triangles, forecast); }
+  void writing(const std::string& path) override { progress_.writing(path); }
   void stalled(const std::string& why) override;
 
   /// The files of the mesh and its picture; those of `staged` have their size, pipes and devices none.
@@ -40,6 +42,7 @@ class RunNotes final : public job::Watch {
  private:
   const Told& told_;
   bool silent_;
+  bool on_ranks_;  // several
   std::int32_t pieces_ = 1;
   ProgressLine progress_;
   Stopwatch since_start_;

@@ -47,10 +47,12 @@ RankRun::~RankRun() {
 void RankRun::refine(bool logs, const RankHooks& hooks) {
   team_.meet();  // the clocks of all start together
   channel_ = team_.open();
+  if (!team_.alone()) progress_.emplace(team_);
   by_itself(team_, [&] {
     if (logs) log_.emplace(channel_->transport(), &order_.plan.decomposition);
     run_loop(hooks);
     if (logs) log_->ends(*loop_);
+    if (progress_) progress_->close(loop_->triangles(), [this] { show_progress(false); });
   });
   channel_->close();
   agree_on_failure(team_, failure_);
@@ -72,7 +74,19 @@ void RankRun::run_loop(const RankHooks& hooks) {
   });
 }
 
+/// What the watch throws ends the run as what a slice of work throws does.
+void RankRun::show_progress(bool refines) {
+  if (failure_) return;
+  try {
+    watch_.refining_on_all(progress_->triangles(), forecast_of(order_.plan));
+  } catch (const std::exception&) {
+    failure_ = std::current_exception();
+    if (refines) loop_->abandon();
+  }
+}
+
 protocol::StepResult RankRun::step_or_abandon() {
+  if (progress_ && progress_->tell(loop_->triangles())) show_progress(true);
   // Not at each poll of an idle rank: a look at its memory takes longer.
   const bool changed = std::exchange(triangles_, loop_->triangles()) != loop_->triangles();
   const bool by_memory = changed && !loop_->abandoned() && memory_is_full(limits_, triangles_);
@@ -136,7 +150,7 @@ DistributedPiece RankRun::assemble(ExchangeRunner& ranks) const {
     PieceAssembly assembly(team_.rank(), team_.ranks(), order_.plan.decomposition, held_by_rank(loop_->subdomains()));
     ranks.run(assembly);
     DistributedPiece piece = assembly.piece(order_.pslg);
-    set_depths(order_.rasters, piece.mesh);
+    set_point_data(order_.rasters, piece.mesh);
     return piece;
   });
 }

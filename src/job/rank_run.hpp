@@ -12,6 +12,7 @@
 #include "job/limits.hpp"
 #include "job/order.hpp"
 #include "job/rank_report.hpp"
+#include "job/ranks_progress.hpp"
 #include "job/team.hpp"
 #include "job/watch.hpp"
 #include "runtime/crew.hpp"
@@ -60,6 +61,7 @@ class RankRun {
   [[nodiscard]] RankLoop::Observers observers(const RankHooks& hooks);
   [[nodiscard]] std::function<void(const Subdomain&)> inspection();
   void run_loop(const RankHooks& hooks);
+  void show_progress(bool refines);
   [[nodiscard]] protocol::StepResult step_or_abandon();
   [[nodiscard]] std::exception_ptr stopped(bool by_memory) const;
 
@@ -70,6 +72,7 @@ class RankRun {
   Limits limits_;
   std::unique_ptr<ScratchFile> scratch_;  // if subdomains sleep on disk
   std::unique_ptr<Channel> channel_;
+  std::optional<RanksProgress> progress_;  // unless the rank is alone
   std::optional<RankLog> log_;
   FactsBook book_;
   std::unique_ptr<Crew> crew_;  // if ranks have several threads

@@ -34,6 +34,10 @@ class Watch {
   virtual void pieces(std::int32_t /*count*/) {}
   /// Called from time to time during refinement. With many ranks, `triangles` and `forecast` are those of this rank.
   virtual void refining(std::int64_t /*triangles*/, double /*forecast*/) {}
+  /// With many ranks, called on rank 0 in addition, with the triangles and the forecast of all.
+  virtual void refining_on_all(std::int64_t /*triangles*/, double /*forecast*/) {}
+  /// The file at `path` is about to be written, within a stage.
+  virtual void writing(const std::string& /*path*/) {}
   /// Nothing has moved on this rank for a minute.
   virtual void stalled(const std::string& /*why*/) {}
 

@@ -120,6 +120,13 @@ void add_up(const std::vector<Bytes>& reports, std::size_t subdomains, Outcome& 
   if (balance != 0) complain(fmt::format("the counts of termination add up to {}", balance));
 }
 
+/// Keeps the last that it is told of all ranks.
+class ToldOfAll final : public job::Watch {
+ public:
+  void refining_on_all(std::int64_t triangles, double /*forecast*/) override { last = triangles; }
+  std::int64_t last = -1;
+};
+
 }  // namespace
 
 Mesh gathered(job::Team& team, const job::RankRun& run) {
@@ -146,7 +153,7 @@ Outcome run(const Job& job) {
   order.shares.assign(to_index(team.ranks()), 1);
   if (job.drag) order.shares[static_cast<Rank>(job.seed % order.shares.size())] = 0.2;
 
-  job::Watch watch;
+  ToldOfAll watch;
   job::RankRun run(team, std::move(order), {}, nullptr, watch);
   Mover mover(job, team.rank(), team.ranks());
   std::optional<DelayingTransport> delaying;
@@ -157,6 +164,10 @@ Outcome run(const Job& job) {
   const std::vector<Bytes> reports = team.gather(account_of(run.loop(), mover).pack());
   if (outcome.leads) add_up(reports, run.plan().owners.size(), outcome);
   outcome.mesh = gathered(team, run);
+  const bool tells = outcome.leads && team.ranks() > 1;
+  if (tells && std::cmp_not_equal(watch.last, outcome.mesh.triangles.size()))
+    outcome.problems.push_back(
+        fmt::format("rank 0 was told of {} triangles at the end, of {}", watch.last, outcome.mesh.triangles.size()));
   team.close();
   return outcome;
 }

@@ -142,4 +142,6 @@ TEST_CASE("Progress in words") {
   CHECK(refining_words(5'000'000, 4'000'000, 1) == "refining  5,000,000 triangles  5.00 M/s");
   CHECK(refining_words(12, 1e18, 0) == "refining  12 triangles");
   CHECK(refining_words(100'000'000, 536'000'000, 40).find("triangles") < 70);
+  CHECK(writing_words("out/bay.vtu", 0.4, 0) == "writing bay.vtu");
+  CHECK(writing_words("out/bay.vtu", 4, 1'240'000'000) == "writing bay.vtu  4 s  1.24 GB  310 MB/s");
 }
