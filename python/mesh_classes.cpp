@@ -269,6 +269,13 @@ void add_mesh(py::module_& module) {
   add_view(mesh, "ranks", "Rank that had the subdomain of each triangle, shape (triangles,), or (0,).",
            [](const Mesh& v, py::handle self) { return view(v.ranks, self); });
   add_names(mesh);
+  mesh.def_property_readonly(
+      "attribute_names", [](const Mesh& v) { return v.attribute_names; },
+      "What the attributes are called: a list of texts, one for each, or an empty one.");
+  mesh.def_property_readonly(
+      "coordinates", [](const Mesh& v) { return v.coordinates; },
+      "What the coordinates of a mesh from a file are: the name of a projection, such as 'UTM zone 18N', with\n"
+      "' from lonlat' behind it if the domain was given in longitudes and latitudes; '' if that is not known.");
   mesh.def(
       "write",
       [](const Mesh& v, const std::filesystem::path& path) {

@@ -21,10 +21,11 @@ namespace driftmesh {
 /// A domain from a file.
 struct InputFile {
   Pslg pslg;
-  /// "UTM zone 18N": of coordinates that the file has in degrees, or that it names. Empty: it is not known, and
-  /// coordinates are those of the file.
+  /// "UTM zone 18N", or "stereographic at 0 90": of coordinates that the file has in degrees, or that it names. Empty:
+  /// it is not known, and coordinates are those of the file.
   std::string projection;
   std::vector<std::string> warnings{};  ///< about what the author of the file may not have meant
+  bool from_lonlat = false;             ///< the file has longitudes and latitudes
 };
 
 /// Reads a domain: GeoJSON (.geojson, .json), by GDAL shapefiles and others that GIS have (.shp, .gpkg, .fgb, .gml,
@@ -63,6 +64,14 @@ struct WriteOptions {
   bool ascii = false;          ///< .msh as text, for programs that read no binary one
   /// Markers of edges that are open sea, for .14, .grd and .gr3. None: those of markers that are called "open".
   std::vector<std::int32_t> open_boundary{};
+  /// Open boundaries shorter than this, in units of the mesh, are land there: such as creeks that the frame of a domain
+  /// cuts.
+  double open_from = 0;
+  /// Coordinates in the file, of a mesh that knows its own (Mesh::coordinates): "auto" (longitudes and latitudes on WGS
+  /// 84 in .14, .grd and .gr3 if the domain was given in such, otherwise as the mesh has them), "lonlat", "projected"
+  /// (as the mesh has them), or a code such as "EPSG:3035", which takes GDAL. Files say what they have; read_mesh takes
+  /// them back.
+  std::string crs = "auto";
   bool ghost_layer = false;  ///< pieces of .pvtu with a ring of ghost triangles; a whole mesh has none
   /// Is told what of the mesh the format cannot hold, and what its solvers will refuse.
   std::function<void(const std::string&)> warn{};
@@ -80,10 +89,11 @@ struct ReadOptions {
 };
 
 /// Reads a mesh back, from any of these formats but .pmesh, from standard input by the same names, or from the pieces
-/// that a .pvtu names. A file on disk may be mapped: another program must not shorten it meanwhile. Everything is
-/// checked before it is used: indices are in range and counts fit the file. Triangles stay as the file lists them, so
-/// that a check sees the actual contents; only if the total area is negative are all of them reversed. Errors:
-/// InputError naming file and place, FileError.
+/// that a .pvtu names. Other coordinates than those in which the mesh was made become these, to some nanometers. A file
+/// on disk may be mapped: another program must not shorten it meanwhile. Everything is checked before it is used:
+/// indices are in range and counts fit the file. Triangles stay as the file lists them, so that a check sees the actual
+/// contents; only if the total area is negative are all of them reversed. Errors: InputError naming file and place,
+/// FileError.
 [[nodiscard]] Mesh read_mesh(const std::string& path, const ReadOptions& options = {});
 
 }  // namespace driftmesh

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "driftmesh/names.hpp"
@@ -48,9 +49,16 @@ struct Mesh {
   std::vector<std::int32_t> point_markers;  ///< empty, or one for each point; 0 for interior points added by the mesher
   std::vector<double> attributes;           ///< attributes_per_point values for each point, point by point
   std::int32_t attributes_per_point = 0;
+  /// Empty, or what each attribute is called: "depth". A name is as those of markers (see Names), and none of "marker",
+  /// "attribute", "global_number" and "vtkGhostType".
+  std::vector<std::string> attribute_names;
   std::vector<double> regions;  ///< empty, or the attribute of each triangle's region; 0 outside all regions
   Names names;                  ///< names for markers and regions, also for those that do not occur
   std::vector<Weir> weirs;      ///< read from an ADCIRC grid; only .14 and .grd hold them
+  /// What the coordinates of points are; empty: not known. The name of a projection, such as "UTM zone 18N", says that
+  /// they are its meters. " of degrees" behind it: the domain was given in longitudes and latitudes, as which grids of
+  /// this mesh are written, too.
+  std::string coordinates;
 
   // Only for a mesh made in subdomains, or a rank's piece of one.
   std::vector<std::int64_t> numbers;     ///< empty, or the number of each point of a piece in the whole mesh

@@ -38,7 +38,7 @@ struct AdaptiveMesh::Impl {
     session.emplace(
         adapt::Start{std::move(live.plan), std::move(live.pslg), std::move(live.parts), std::move(live.lengths)},
         adaptive, [rasters = std::move(live.rasters)](Mesh& mesh) {
-          set_depths(rasters, mesh);
+          set_point_data(rasters, mesh);
           mesh.numbers.clear();  // only for points of a piece; this is the whole mesh
           mesh.ranks.clear();
         });

@@ -21,14 +21,17 @@
 #include "driftmesh/error.hpp"
 #include "driftmesh/files.hpp"
 #include "driftmesh/repair.hpp"
+#include "gis/coordinates.hpp"
 #include "io/mesh_file.hpp"
 #include "job/check.hpp"
 #include "job/contour.hpp"
 #include "job/domain.hpp"
 #include "job/files.hpp"
+#include "job/input_file.hpp"
 #include "job/memory.hpp"
 #include "job/rasters.hpp"
 #include "mesh/digest.hpp"
+#include "mesh/settle_points.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
 
@@ -37,6 +40,10 @@ namespace {
 
 constexpr int kRejected = 1;
 constexpr int kUnreadable = 2;
+
+// Meters, of a mesh that may have been in longitudes and latitudes meanwhile: three units of the last place at 180
+// degrees, and what these may do to the circumcircles of triangles.
+constexpr double kRounded = 1e-8, kSlack = 100 * kRounded;
 
 struct CheckOptions {
   std::string mesh;
@@ -54,7 +61,7 @@ struct CheckOptions {
 /// Keeps what has polygons as the file has it, too.
 std::optional<InputFile> read_and_repair(CheckOptions& options, const job::Request::Input& asked) {
   if (options.input.empty() && asked.contour.empty()) return std::nullopt;
-  InputFile input = asked.contour.empty() ? read_input(options.input, asked.layers) : job::contour_input(asked);
+  InputFile input = asked.contour.empty() ? job::read_domain_file(options.input, asked) : job::contour_input(asked);
   if (!input.pslg.polygons.empty()) {
     options.given = input.pslg;
     options.verify.given = &options.given;
@@ -84,6 +91,19 @@ class CheckedMesh {
     return box;
   }
 
+  /// What the coordinates of its points are; empty: not known.
+  [[nodiscard]] std::string projection() const {
+    const std::string text = files_ && files_->size() > 0 ? files_->read(0).coordinates : whole_.coordinates;
+    return coordinates_from(text).value_or(Coordinates{}).projection;
+  }
+
+  /// Points of a mesh that knows where it is on the globe, within what rounding moves longitudes and latitudes, become
+  /// these, which are those of the input.
+  void settle_on(std::vector<Point> places) {
+    places_ = std::move(places);
+    settle(whole_);
+  }
+
   [[nodiscard]] VerifyReport verify(const Pslg* input, const VerifyOptions& options) {
     if (files_) return verify_files(input, options);
     digest_ = mesh_digest(whole_);
@@ -97,7 +117,8 @@ class CheckedMesh {
   VerifyReport verify_files(const Pslg* input, VerifyOptions options) {
     std::vector<std::uint64_t> digests(files_->size());
     const Pieces pieces{files_->size(), [&](std::size_t k, const Pieces::Show& show) {
-                          const Mesh piece = files_->read(k);
+                          Mesh piece = files_->read(k);
+                          settle(piece);
                           digests[k] = mesh_digest(piece);
                           show(piece);
                         }};
@@ -113,14 +134,25 @@ class CheckedMesh {
     return free == 0 || each == 0 ? 1 : std::max<std::uint64_t>(1, free / 2 / each);
   }
 
+  void settle(Mesh& mesh) const {
+    if (!mesh.coordinates.empty()) settle_points(mesh.points, places_, kRounded);
+  }
+
   std::optional<PieceFiles> files_;
   Mesh whole_;
+  std::vector<Point> places_;
   std::uint64_t digest_ = 0;
 };
 
 VerifyReport read_and_verify(CheckOptions& options, const job::Request& request) {
   CheckedMesh mesh(options.mesh, options.reading);
-  const std::optional<InputFile> file = read_and_repair(options, request.input);
+  job::Request::Input asked = request.input;
+  if (const std::string own = mesh.projection(); !own.empty()) {
+    if (asked.projection == "auto") asked.projection = own;
+    options.verify.delaunay_slack = kSlack;
+  }
+  const std::optional<InputFile> file = read_and_repair(options, asked);
+  if (file) mesh.settle_on(file->pslg.points);
   const Pslg* const input = file ? &file->pslg : nullptr;
   const bool sized = !request.sizing.expression.empty() || !request.sizing.background.empty() ||
                      request.sizing.longest > 0 || request.sizing.courant_step > 0;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -92,59 +93,63 @@ void run_convert(const ConvertOptions& options) {
 
 cli::Command convert_command() {
   const auto options = std::make_shared<ConvertOptions>();
-  return {
-      .name = "convert",
-      .summary = "Write a mesh in another format",
-      .options = {{.kind = cli::Option::Kind::kPositional,
-                   .name = "input",
-                   .value = "INPUT",
-                   .help = "The mesh: " + mesh_files_read(),
-                   .required = true,
-                   .completes = cli::Option::Completes::kFile,
-                   .take = cli::into(options->input)},
-                  {.kind = cli::Option::Kind::kPositional,
-                   .name = "output",
-                   .value = "OUTPUT",
-                   .help = "The new file; its extension selects the format: " + mesh_files_written(),
-                   .required = true,
-                   .completes = cli::Option::Completes::kFile,
-                   .take = cli::into(options->output)},
-                  {.kind = cli::Option::Kind::kFlag,
-                   .name = "ascii",
-                   .help = "Write .msh as text, for programs that read no binary one (deal.II)",
-                   .take = cli::into(options->writing.ascii)},
-                  {.kind = cli::Option::Kind::kFlag,
-                   .name = "boundary-only",
-                   .help = "Leave out segments inside of the domain, for programs that refuse them (deal.II)",
-                   .take = cli::into(options->boundary_only)},
-                  {.name = "order",
-                   .value = "ORDER",
-                   .help = "Order of points and triangles: given, hilbert (along a Hilbert curve) or rcm (reverse "
-                           "Cuthill-McKee, for solvers: a small bandwidth)",
-                   .choices = {"given", "hilbert", "rcm"},
-                   .take = cli::into(options->order)},
-                  {.name = "open-boundary",
-                   .value = "MARKERS",
-                   .help =
-                       "Markers of the segments that are open sea, in .14, .grd and .gr3 (default: those called open)",
-                   .take = cli::into(options->writing.open_boundary)},
-                  {.name = "marker-name",
-                   .value = "MARKER=NAME",
-                   .help = "What a marker of segments is called in files that can hold names, such as 5=inlet",
-                   .repeats = true,
-                   .take = into_names(options->names.markers, marker_from)},
-                  {.name = "region-name",
-                   .value = "REGION=NAME",
-                   .help = "What a region is called in files that can hold names, such as 10=land",
-                   .repeats = true,
-                   .take = into_names(options->names.regions, region_from)},
-                  allow_outside_option(options->reading)},
-      .examples = {"driftmesh convert bay.vtu bay.msh"},
-      .exit_codes = "0 done, 1 error, 2 wrong usage",
-      .run = [options](cli::Call&) {
-        run_convert(*options);
-        return 0;
-      }};
+  return {.name = "convert",
+          .summary = "Write a mesh in another format",
+          .options =
+              {{.kind = cli::Option::Kind::kPositional,
+                .name = "input",
+                .value = "INPUT",
+                .help = "The mesh: " + mesh_files_read(),
+                .required = true,
+                .completes = cli::Option::Completes::kFile,
+                .take = cli::into(options->input)},
+               {.kind = cli::Option::Kind::kPositional,
+                .name = "output",
+                .value = "OUTPUT",
+                .help = "The new file; its extension selects the format: " + mesh_files_written(),
+                .required = true,
+                .completes = cli::Option::Completes::kFile,
+                .take = cli::into(options->output)},
+               {.kind = cli::Option::Kind::kFlag,
+                .name = "ascii",
+                .help = "Write .msh as text, for programs that read no binary one (deal.II)",
+                .take = cli::into(options->writing.ascii)},
+               {.kind = cli::Option::Kind::kFlag,
+                .name = "boundary-only",
+                .help = "Leave out segments inside of the domain, for programs that refuse them (deal.II)",
+                .take = cli::into(options->boundary_only)},
+               {.name = "open-boundary",
+                .value = "MARKERS",
+                .help = "Markers of the segments that are open sea, in .14, .grd and .gr3 (default: those called open)",
+                .take = cli::into(options->writing.open_boundary)},
+               {.name = "open-from",
+                .value = "LENGTH",
+                .help = "Shortest open boundary in .14, .grd and .gr3; shorter ones, such as creeks that the frame of "
+                        "the domain cuts, are land",
+                .take = cli::into(options->writing.open_from, {0, std::numeric_limits<double>::max()})},
+               {.name = "crs",
+                .value = "SYSTEM",
+                .help = "Coordinates: lonlat (degrees on WGS 84), projected (meters of the plane in which the mesh was "
+                        "made), a code such as EPSG:3035 (with GDAL), or auto: lonlat in .14, .grd and .gr3 if the "
+                        "domain was given in degrees, otherwise projected",
+                .take = cli::into(options->writing.crs)},
+               {.name = "marker-name",
+                .value = "MARKER=NAME",
+                .help = "What a marker of segments is called in files that can hold names, such as 5=inlet",
+                .repeats = true,
+                .take = into_names(options->names.markers, marker_from)},
+               {.name = "region-name",
+                .value = "REGION=NAME",
+                .help = "What a region is called in files that can hold names, such as 10=land",
+                .repeats = true,
+                .take = into_names(options->names.regions, region_from)},
+               allow_outside_option(options->reading)},
+          .examples = {"driftmesh convert bay.vtu bay.msh"},
+          .exit_codes = "0 done, 1 error, 2 wrong usage",
+          .run = [options](cli::Call&) {
+            run_convert(*options);
+            return 0;
+          }};
 }
 
 }  // namespace driftmesh::app

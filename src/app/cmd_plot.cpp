@@ -143,7 +143,7 @@ void run_plot(const cli::Call& call, PlotCommand& command) {
   command.plot.name = command.input;
   register_files(command);
   if (holds_input(command.input))
-    plot(read_input(command.input).pslg, command.output, command.plot);
+    plot(job::read_domain_file(command.input, {}).pslg, command.output, command.plot);
   else
     plot(read_mesh(command.input, command.reading), command.output, command.plot);
 }

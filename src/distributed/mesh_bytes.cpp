@@ -41,6 +41,15 @@ void transfer(Stream& stream, M& mesh) {
   stream.array(mesh.ranks);
   transfer_names(stream, mesh.names);
   transfer_weirs(stream, mesh.weirs);
+  if constexpr (std::is_same_v<Stream, ByteWriter>) {
+    stream.text(mesh.coordinates);
+    stream.value(std::uint64_t{mesh.attribute_names.size()});
+    for (const std::string& name : mesh.attribute_names) stream.text(name);
+  } else {
+    mesh.coordinates = stream.text();
+    for (auto left = stream.template value<std::uint64_t>(); left > 0; --left)
+      mesh.attribute_names.push_back(stream.text());
+  }
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "distributed/rank_status.hpp"
 #include "distributed/write_mfem.hpp"
 #include "distributed/write_together.hpp"
+#include "io/other_coordinates.hpp"
 #include "io/pvtu_format.hpp"
 #include "mesh/merge_pieces.hpp"
 
@@ -206,11 +207,18 @@ bool is_written_by_all(const std::string& path) {
 }
 
 void write_distributed(ExchangeRunner& ranks, const DistributedPiece& piece, std::span<const std::string> paths,
-                       const WriteOptions& options) {
+                       const WriteOptions& options, const std::function<void(const std::string&)>& begins) {
   std::optional<GatherPieces> gathered;
   for (const std::string& path : paths) {
+    if (begins) begins(path);
     if (const WriterOfRanks* const writer = writer_of_ranks(path)) {
-      writer->write(ranks, piece, path, options);
+      if (const std::string wanted = coordinates_wanted(piece.mesh, path, options); wanted.empty()) {
+        writer->write(ranks, piece, path, options);
+      } else {
+        DistributedPiece moved = piece;
+        change_coordinates(moved.mesh, wanted, path);
+        writer->write(ranks, moved, path, options);
+      }
       continue;
     }
     if (!gathered) ranks.run(gathered.emplace(piece));

@@ -94,8 +94,9 @@ class WriteWhole final : public Exchange {
 [[nodiscard]] bool is_written_by_all(const std::string& path);
 
 /// Writes the mesh to each of `paths`; all ranks call it together. What is not written by all takes memory for the
-/// whole mesh on rank 0. If one rank fails, all throw.
+/// whole mesh on rank 0. Each rank calls begins(path) before it begins with one, if that is not empty. If one rank
+/// fails, all throw.
 void write_distributed(ExchangeRunner& ranks, const DistributedPiece& piece, std::span<const std::string> paths,
-                       const WriteOptions& options = {});
+                       const WriteOptions& options = {}, const std::function<void(const std::string&)>& begins = {});
 
 }  // namespace driftmesh

@@ -14,13 +14,21 @@ constexpr Rank kMaker{0};  // creates the file
 }  // namespace
 
 VtuArrays arrays_of_pieces(const DistributedPiece& piece) {
-  return {true, piece.mesh.attributes_per_point, true, true, piece.has_regions, true, true, false};
+  return {.point_markers = true,
+          .attributes = piece.mesh.attributes_per_point,
+          .numbers = true,
+          .cell_markers = true,
+          .regions = piece.has_regions,
+          .subdomains = true,
+          .ranks = true,
+          .attribute_names = piece.mesh.attribute_names};
 }
 
 WriteTogether::WriteTogether(const DistributedPiece& piece, std::string path)
     : piece_(piece), path_(std::move(path)), part_{.mesh = piece.mesh, .points = {}, .lines = {}, .row = {}} {
   shape_.arrays = arrays_of_pieces(piece);
   shape_.names = piece.mesh.names;
+  shape_.coordinates = piece.mesh.coordinates;
   part_.row.resize(piece.mesh.points.size());
   for (std::size_t v = 0; v < piece.owners.size(); ++v)
     if (piece.owners[v] == piece.rank) part_.points.push_back(static_cast<std::int32_t>(v));

@@ -28,7 +28,7 @@ double rounded(double longitude) {
 /// Where the interval without the largest gap begins, from -180 to 180.
 double first_longitude(GeoFeatures& features) {
   std::vector<double> longitudes;
-  for_each_point(features, [&](const Point& p) { longitudes.push_back(rounded(turned(p.x))); });
+  for_each_point(features, [&](const Point& p) { longitudes.push_back(canonical_longitude(p.x)); });
   std::ranges::sort(longitudes);
   double first = longitudes.front(), widest = longitudes.front() + 360 - longitudes.back();
   for (std::size_t i = 1; i < longitudes.size(); ++i)
@@ -202,10 +202,14 @@ class Joined {
 
 }  // namespace
 
+double canonical_longitude(double longitude) {
+  return rounded(turned(longitude));
+}
+
 void unwrap_longitudes(GeoFeatures& features) {
   const double first = first_longitude(features);
   const auto unwrapped = [&](double longitude) {
-    const double canonical = rounded(turned(longitude));
+    const double canonical = canonical_longitude(longitude);
     return canonical < first ? canonical + 360 : canonical;
   };
   bool changes = false;

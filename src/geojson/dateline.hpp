@@ -4,10 +4,13 @@
 
 namespace driftmesh {
 
+/// From -180, to 180 exclusive, rounded to 1e-10 degrees (a hundredth of a millimeter), so that a longitude is one
+/// number however a file counts.
+[[nodiscard]] double canonical_longitude(double longitude);
+
 /// Counts longitudes on where they go once around the globe, so that all lie in one interval: where everything crosses
 /// the 180th meridian those in the west of it become greater than 180. The interval leaves out the largest gap between
-/// longitudes. Where nothing changes, all remain to the bit; otherwise all are rounded to 1e-10 degrees (a hundredth of
-/// a millimeter), so that a longitude is one number however the file counts.
+/// longitudes. Where nothing changes, all remain to the bit; otherwise all are rounded as canonical_longitude does.
 void unwrap_longitudes(GeoFeatures& features);
 
 /// Joins the polygons that were cut along the 180th meridian, as RFC 7946 asks for: where borders of two polygons

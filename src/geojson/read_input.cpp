@@ -7,6 +7,8 @@
 #include "base/read_file.hpp"
 #include "base/standard_streams.hpp"
 #include "driftmesh/error.hpp"
+#include "geojson/choose_projection.hpp"
+#include "geojson/dateline.hpp"
 #include "geojson/each_point.hpp"
 #include "geojson/geojson.hpp"
 #include "geojson/rings_to_pslg.hpp"
@@ -38,14 +40,15 @@ bool could_be_degrees(GeoFeatures& features) {
 
 }  // namespace
 
-InputFile input_of(const std::string& file, GeoFeatures features) {
+InputFile input_of(const std::string& file, GeoFeatures features, const std::string& projection) {
   InputFile input;
   input.warnings = features.warnings;
   if (could_be_degrees(features))
     input.warnings.push_back("coordinates in the system '" + features.system +
                              "' are taken for those of a plane, but look like degrees; if they are, convert the file: "
                              "ogr2ogr -t_srs EPSG:4326");
-  input.projection = features.in_degrees ? project(features, file) : features.projection;
+  input.from_lonlat = features.in_degrees;
+  input.projection = features.in_degrees ? project(features, projection, file) : features.projection;
   input.pslg = to_pslg(features);
   return input;
 }
@@ -54,25 +57,43 @@ namespace {
 
 /// GDAL, if it is there, knows the systems that are not known here: what is in Mercator's projection or in feet does
 /// not go for meters.
-InputFile read_geojson(const std::string& path) {
+InputFile read_geojson(const std::string& path, const std::string& projection) {
   GeoFeatures features = parse_geojson(path, read_file(path, kBeginsJson));
   if (!features.knows_system() && !is_standard_stream(path) && can_read_vectors())
     if (GeoFeatures known = parse_geojson(path, vector_as_geojson(path, "")); known.system != kInMeters)
       features = std::move(known);
-  return input_of(path, std::move(features));
+  return input_of(path, std::move(features), projection);
 }
 
 }  // namespace
 
-InputFile parse_geojson_input(const std::string& file, std::string_view text) {
-  return input_of(file, parse_geojson(file, text));
+InputFile parse_geojson_input(const std::string& file, std::string_view text, const std::string& projection) {
+  return input_of(file, parse_geojson(file, text), projection);
 }
 
-InputFile read_geometry(const std::string& path, const std::string& layers) {
-  if (is_vector_file(path)) return parse_geojson_input(path, vector_as_geojson(path, layers));
+InputFile read_geometry(const std::string& path, const std::string& layers, const std::string& projection) {
+  if (is_vector_file(path)) return parse_geojson_input(path, vector_as_geojson(path, layers), projection);
   if (!layers.empty()) throw InputError({path}, "has no layers", "name layers of files that have some, such as .gpkg");
-  if (is_geojson(path)) return read_geojson(path);
+  if (is_geojson(path)) return read_geojson(path, projection);
   return {read_poly(path), {}, {}};
+}
+
+void project_degrees(InputFile& input, const std::string& projection, const std::string& file) {
+  GeoFeatures places;
+  places.points = input.pslg.points;
+  for (const Point& p : places.points)
+    if (std::abs(p.x) > 360 || std::abs(p.y) > 90)
+      throw InputError({file}, "has coordinates that are no longitude and latitude", "they are not in degrees");
+  unwrap_longitudes(places);
+  const Projection plane = given_projection(projection, places.points, false, file);
+  const auto project_all = [&](auto& items, const auto& place_of) {
+    for (auto& item : items) place_of(item) = plane.plane(place_of(item));
+  };
+  project_all(input.pslg.points, [](Point& p) -> Point& { return p; });
+  project_all(input.pslg.holes, [](Point& p) -> Point& { return p; });
+  project_all(input.pslg.regions, [](Pslg::Region& region) -> Point& { return region.at; });
+  input.projection = plane.name();
+  input.from_lonlat = true;
 }
 
 std::vector<std::string> geometry_files(const std::string& path) {

@@ -5,19 +5,19 @@
 #include <map>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "base/narrow.hpp"
 #include "driftmesh/error.hpp"
+#include "geojson/around_pole.hpp"
+#include "geojson/choose_projection.hpp"
 #include "geojson/dateline.hpp"
 #include "geojson/each_point.hpp"
 #include "geojson/vertices_on_edges.hpp"
-#include "geometry/box.hpp"
-#include "gis/transverse_mercator.hpp"
+#include "gis/projection.hpp"
 
 namespace driftmesh {
 namespace {
-
-constexpr double kFarthest = 40;  // degrees from the middle
 
 /// Numbers points, segments and regions, each once.
 class PslgBuilder {
@@ -76,27 +76,29 @@ class PslgBuilder {
 
 }  // namespace
 
-std::string project(GeoFeatures& features, const std::string& file) {
+std::string project(GeoFeatures& features, const std::string& asked, const std::string& file) {
   for_each_point(features, [&](const Point& p) {
     if (std::abs(p.x) > 360 || std::abs(p.y) > 90)
       throw InputError({file, 0}, "has coordinates that are no longitude and latitude",
                        "GeoJSON is in degrees; for other coordinates, name their system in a \"crs\"");
-    if (p.y > 84 || p.y < -80)
-      throw InputError({file, 0}, "reaches beyond 84 degrees north or 80 degrees south, where UTM ends",
-                       "project it yourself, and name the system in a \"crs\"");
   });
-  unwrap_longitudes(features);
-  join_at_dateline(features);
-  Box box;
-  for_each_point(features, [&](const Point& p) { box.extend(p); });
-  const double middle = (box.low.x + box.high.x) / 2;
-  const UtmZone zone = utm_zone_of(middle, (box.low.y + box.high.y) / 2);
-  const double off = std::remainder(middle - zone.central_meridian(), 360), half = (box.high.x - box.low.x) / 2;
-  if (half + std::abs(off) > kFarthest)
-    throw InputError({file, 0}, "spans too many degrees of longitude for one UTM zone",
-                     "project it yourself and name the system in a \"crs\"");
-  project_with_edges(features, [&](const Point& p) { return utm(p.x, p.y, zone); });
-  return zone.name();
+  const bool around_pole = goes_around(features);
+  if (!around_pole) {
+    unwrap_longitudes(features);
+    join_at_dateline(features);
+  }
+  std::vector<Point> places;
+  for_each_point(features, [&](const Point& p) { places.push_back(p); });
+  const Projection plane = given_projection(asked, places, around_pole, file);
+  if (!plane.is_utm()) divide_long_edges(features);
+  const auto projected = [&](const Point& p) { return plane.plane(p); };
+  if (around_pole) {
+    close_at_dateline(features);
+    for_each_point(features, [&](Point& p) { p = projected(p); });
+  } else {
+    project_with_edges(features, projected);
+  }
+  return plane.name();
 }
 
 Pslg to_pslg(const GeoFeatures& features) {

@@ -120,6 +120,14 @@ const GdalFunctions& gdal_for(const std::string& file) {
   return loaded.functions;
 }
 
+const GdalFunctions& gdal_to_transform(const std::string& file) {
+  const Loaded& loaded = loaded_once();
+  if (!loaded.problem.empty())
+    throw InputError({file}, "takes GDAL for its coordinates, which cannot be loaded (" + loaded.problem + ")",
+                     "install Debian's package libgdal32, or use lonlat");
+  return loaded.functions;
+}
+
 OwnedByUs<GDALDatasetH> open_by_gdal(const GdalFunctions& gdal, const std::string& file, unsigned kind) {
   const std::vector<const char*> drivers = drivers_for(file, kind);
   if (kind == GDAL_OF_RASTER) require_own_content(file);

@@ -39,7 +39,8 @@ namespace driftmesh {
   USE(OGR_G_GetGeometryType) USE(OGR_G_GetLinearGeometry) USE(OGR_G_GetPointCount) USE(OGR_G_GetX) USE(OGR_G_GetY)  \
   USE(OGR_G_Transform) USE(OGR_L_GetName) USE(OGR_L_GetNextFeature) USE(OGR_L_GetSpatialRef)                        \
   USE(OGR_L_ResetReading) USE(OSRDestroySpatialReference) USE(OSRGetAttrValue) USE(OSRGetLinearUnits)               \
-  USE(OSRGetPROJEnableNetwork) USE(OSRGetUTMZone) USE(OSRImportFromEPSG) USE(OSRIsGeographic) USE(OSRIsProjected)   \
+  USE(OSRGetPROJEnableNetwork) USE(OSRGetUTMZone) USE(OSRImportFromEPSG) USE(OSRImportFromProj4) USE(OSRIsGeographic)   \
+  USE(OSRIsProjected)                                                                                               \
   USE(OSRIsSame) USE(OSRNewSpatialReference) USE(OSRSetAxisMappingStrategy) USE(OSRSetPROJEnableNetwork)
 // clang-format on
 
@@ -65,6 +66,9 @@ struct GdalFunctions {
 
 /// To read this file. Throws InputError that says how to get GDAL where it cannot be loaded.
 [[nodiscard]] const GdalFunctions& gdal_for(const std::string& file);
+
+/// To transform coordinates of this file, which need not exist yet. Throws likewise.
+[[nodiscard]] const GdalFunctions& gdal_to_transform(const std::string& file);
 
 /// An object of GDAL, and what destroys it.
 template <class Handle>

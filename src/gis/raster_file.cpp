@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "driftmesh/error.hpp"
+#include "gis/coordinates.hpp"
 #include "gis/gdal_functions.hpp"
 
 namespace driftmesh {
@@ -29,17 +30,17 @@ class GdalRaster final : public RasterRows {
   }
 
   [[nodiscard]] const RasterFrame& frame() const override { return frame_; }
-  [[nodiscard]] PlaceFunction to_zone(const UtmZone& zone) const override {
+  [[nodiscard]] PlaceFunction to_plane(const Projection& projection) const override {
     const OGRSpatialReferenceH own = gdal_.GDALGetSpatialRef(data_.get());
-    if (own == nullptr || !gdal_.is_on_globe(own)) return RasterRows::to_zone(zone);
-    const std::shared_ptr<Transformation> from_own = transformation(own, zone.epsg(), Direction::kFromOwn);
+    if (own == nullptr || !gdal_.is_on_globe(own)) return RasterRows::to_plane(projection);
+    const std::shared_ptr<Transformation> from_own = transformation(own, projection.definition(), Direction::kFromOwn);
     if (from_own == nullptr) return nullptr;
     return [this, from_own](const Point& p) { return transformed(from_own.get(), p); };
   }
-  [[nodiscard]] PlaceFunction from_zone(const UtmZone& zone) const override {
+  [[nodiscard]] PlaceFunction from_plane(const Projection& projection) const override {
     const OGRSpatialReferenceH own = gdal_.GDALGetSpatialRef(data_.get());
-    if (own == nullptr || !gdal_.is_on_globe(own)) return RasterRows::from_zone(zone);
-    const std::shared_ptr<Transformation> to_own = transformation(own, zone.epsg(), Direction::kToOwn);
+    if (own == nullptr || !gdal_.is_on_globe(own)) return RasterRows::from_plane(projection);
+    const std::shared_ptr<Transformation> to_own = transformation(own, projection.definition(), Direction::kToOwn);
     if (to_own == nullptr) return nullptr;
     const bool in_degrees = gdal_.OSRIsGeographic(own) != 0;
     const double middle = frame_.first.x + frame_.dx * static_cast<double>(frame_.columns - 1) / 2;
@@ -53,9 +54,8 @@ class GdalRaster final : public RasterRows {
   [[nodiscard]] DomainSystem domain_system() const override {
     const OGRSpatialReferenceH own = gdal_.GDALGetSpatialRef(data_.get());
     if (own == nullptr || !gdal_.is_on_globe(own)) return RasterRows::domain_system();
-    constexpr int kWgs84 = 4326;
     DomainSystem system{.in_degrees = true};
-    int code = kWgs84;
+    std::string code = "EPSG:4326";  // WGS 84
     if (gdal_.OSRIsProjected(own) != 0 && gdal_.OSRGetLinearUnits(own, nullptr) == 1 && !gdal_.is_mercator(own)) {
       system.in_degrees = false;
       int north = 0;
@@ -63,7 +63,7 @@ class GdalRaster final : public RasterRows {
       if (number == 0) return system;
       const UtmZone zone{number, north != 0};
       system.projection = zone.name();
-      code = zone.epsg();
+      code = Projection(zone).definition();
     }
     if (const auto from_own = transformation(own, code, Direction::kFromOwn))
       system.from_raster = [this, from_own](const Point& p) { return transformed(from_own.get(), p); };
@@ -96,14 +96,17 @@ class GdalRaster final : public RasterRows {
   using Transformation = std::remove_pointer_t<OGRCoordinateTransformationH>;
   enum class Direction { kToOwn, kFromOwn };
 
-  /// Between the system of the file and that with an EPSG code; null if they are the same.
-  [[nodiscard]] std::shared_ptr<Transformation> transformation(OGRSpatialReferenceH own, int code,
+  /// Between the system of the file and one that PROJ knows; null if they are the same.
+  [[nodiscard]] std::shared_ptr<Transformation> transformation(OGRSpatialReferenceH own, const std::string& definition,
                                                                Direction direction) const {
     const QuietGdal quiet(gdal_);
     const OwnedByUs<OGRSpatialReferenceH> system(
         gdal_.OSRNewSpatialReference(nullptr), [this](OGRSpatialReferenceH s) { gdal_.OSRDestroySpatialReference(s); });
-    if (gdal_.OSRImportFromEPSG(system.get(), code) != OGRERR_NONE)
-      fail(quiet.message("PROJ does not know the zone of the domain"), "its data may be missing: install proj-data");
+    const auto code = epsg_from(definition);
+    if ((code ? gdal_.OSRImportFromEPSG(system.get(), *code)
+              : gdal_.OSRImportFromProj4(system.get(), definition.c_str())) != OGRERR_NONE)
+      fail(quiet.message("PROJ does not know the projection of the domain"),
+           "its data may be missing: install proj-data");
     gdal_.OSRSetAxisMappingStrategy(system.get(), OAMS_TRADITIONAL_GIS_ORDER);
     if (gdal_.OSRIsSame(own, system.get()) != 0) return nullptr;
     const bool to_own = direction == Direction::kToOwn;

@@ -20,18 +20,18 @@ DomainSystem RasterRows::domain_system() const {
   return {.in_degrees = could_be_degrees(frame())};
 }
 
-PlaceFunction RasterRows::to_zone(const UtmZone& zone) const {
+PlaceFunction RasterRows::to_plane(const Projection& projection) const {
   if (!could_be_degrees(frame())) return nullptr;
-  return [=](const Point& p) { return utm(p.x, p.y, zone); };
+  return [=](const Point& p) { return projection.plane(p); };
 }
 
-PlaceFunction RasterRows::from_zone(const UtmZone& zone) const {
+PlaceFunction RasterRows::from_plane(const Projection& projection) const {
   if (!could_be_degrees(frame())) return nullptr;
   const Point low = frame().first, high = last_of(frame());
   // As the raster counts longitudes, some of which begin at Greenwich.
   const double middle = (low.x + high.x) / 2;
   return [=](const Point& p) {
-    const Point found = geographic(p, zone);
+    const Point found = projection.geographic(p);
     return Point{middle + std::remainder(found.x - middle, 360), found.y};
   };
 }

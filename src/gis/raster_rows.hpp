@@ -6,7 +6,7 @@
 #include <string>
 
 #include "driftmesh/point.hpp"
-#include "gis/transverse_mercator.hpp"
+#include "gis/projection.hpp"
 
 namespace driftmesh {
 
@@ -32,16 +32,16 @@ class RasterRows {
  public:
   virtual ~RasterRows() = default;
   [[nodiscard]] virtual const RasterFrame& frame() const = 0;
-  /// From places in a UTM zone to the raster's coordinates; null: they are the same. A file that does not name its
-  /// system has longitudes and latitudes if all its coordinates could be some, and is in the zone otherwise.
-  [[nodiscard]] virtual PlaceFunction from_zone(const UtmZone& zone) const;
+  /// From places in a plane to the raster's coordinates; null: they are the same. A file that does not name its system
+  /// has longitudes and latitudes if all its coordinates could be some, and is in the plane otherwise.
+  [[nodiscard]] virtual PlaceFunction from_plane(const Projection& projection) const;
   /// The inverse.
-  [[nodiscard]] virtual PlaceFunction to_zone(const UtmZone& zone) const;
+  [[nodiscard]] virtual PlaceFunction to_plane(const Projection& projection) const;
   /// Whether the coordinates are Mercator's, whose meters are none (see Mercator).
   [[nodiscard]] virtual bool in_mercator() const { return false; }
   /// The coordinates that a domain made from the raster should have: those of the raster in degrees, in a UTM zone, or
   /// in another plane with meters; otherwise longitudes and latitudes on WGS 84. A file that does not name its system
-  /// is judged as from_zone() does.
+  /// is judged as from_plane() does.
   [[nodiscard]] virtual DomainSystem domain_system() const;
   /// Values of row `j` from column `first` on, NaN where there are none. Rows are asked for in descending order, each
   /// at most once. Throws InputError.

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "gis/conformal_latitude.hpp"
 
 namespace driftmesh {
 namespace {
 
-// WGS 84.
-constexpr double kRadius = 6'378'137;
-constexpr double kFlattening = 1 / 298.257223563;
 constexpr double kScale = 0.9996;
 constexpr double kFalseEasting = 500'000, kFalseNorthing = 10'000'000;
 
@@ -19,7 +17,7 @@ constexpr double kN = kFlattening / (2 - kFlattening);  // the third flattening
 /// Karney (2011), equation 14: the radius of the sphere with the same meridians.
 constexpr double rectifying_radius() {
   constexpr double n2 = kN * kN;
-  return kRadius / (1 + kN) * (1 + n2 * (1.0 / 4 + n2 * (1.0 / 64 + n2 / 256)));
+  return kEquatorRadius / (1 + kN) * (1 + n2 * (1.0 / 4 + n2 * (1.0 / 64 + n2 / 256)));
 }
 
 /// Equation 35: alpha 1 to 6.
@@ -33,14 +31,6 @@ constexpr std::array<double, 6> series() {
           212378941 * n6 / 319334400};
 }
 
-/// Equations 7 to 9: the tangent of the conformal latitude.
-double conformal_tangent(double tangent) {
-  const double eccentricity = std::sqrt(kFlattening * (2 - kFlattening));
-  const double sigma = std::sinh(eccentricity * std::atanh(eccentricity * tangent / std::hypot(1, tangent)));
-  return tangent * std::hypot(1, sigma) - sigma * std::hypot(1, tangent);
-}
-
-constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kMeters = kScale * rectifying_radius();
 
 struct OnSphere {
@@ -56,20 +46,6 @@ OnSphere corrected(OnSphere sum, const OnSphere& at, double sign) {
     sum.eta += sign * alpha[j] * std::cos(k * at.xi) * std::sinh(k * at.eta);
   }
   return sum;
-}
-
-/// The inverse of conformal_tangent, by Newton's method (equations 19 to 21).
-double tangent_of_conformal(double conformal) {
-  constexpr double kE2 = kFlattening * (2 - kFlattening);
-  double tangent = conformal / (1 - kE2);
-  for (int i = 0; i < 6; ++i) {
-    const double found = conformal_tangent(tangent);
-    const double step = (conformal - found) / std::hypot(1, found) * (1 + (1 - kE2) * tangent * tangent) /
-                        ((1 - kE2) * std::hypot(1, tangent));
-    tangent += step;
-    if (std::abs(step) < 1e-16 * (1 + std::abs(tangent))) break;
-  }
-  return tangent;
 }
 
 }  // namespace

@@ -22,6 +22,9 @@ inline constexpr std::int32_t kOpenMarker = 3;
 inline constexpr std::int32_t kTypeMarkers = 100;
 inline constexpr std::int32_t kPartMarkers = 10'000;
 
+/// What the title of a grid begins with; what its coordinates are (see Mesh) follows.
+inline constexpr const char* kFort14Title = "driftmesh";
+
 /// Boundaries have the types that the names of their markers say; without one, rings inside of the domain are islands
 /// (type 1), everything else is mainland (type 0). Of `options`, those about boundaries count. Strings are as
 /// boundary_of makes them. `has_weirs`: false for SCHISM, which has none. The first attribute of a point is its depth;

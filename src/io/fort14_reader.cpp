@@ -9,6 +9,7 @@
 #include "io/byte_cursor.hpp"
 #include "io/fort14_format.hpp"
 #include "io/read_checks.hpp"
+#include "pslg/names.hpp"
 
 namespace driftmesh {
 namespace {
@@ -73,7 +74,7 @@ class Fort14Parser {
   Fort14Parser(const std::string& file, std::string_view text) : file_(file), cursor_(file, text) {}
 
   Mesh parse() {
-    next_line("the title");
+    read_title();
     Fields counts = next_line("the number of elements and nodes");
     const std::int32_t triangles = count(counts, "the number of elements"),
                        points = count(counts, "the number of nodes");
@@ -88,6 +89,17 @@ class Fort14Parser {
   }
 
  private:
+  void read_title() {
+    const std::string_view rest = cursor_.rest();
+    next_line("the title");
+    std::string_view title = rest.substr(0, rest.find('\n'));
+    title = title.substr(0, title.find_last_not_of(" \t\r") + 1);
+    const std::string_view begin(kFort14Title);
+    if (!title.starts_with(begin) || title.size() < begin.size() + 2 || title[begin.size()] != ' ') return;
+    title.remove_prefix(begin.size() + 1);
+    if (fault_of_name(title).empty()) mesh_.coordinates = title;
+  }
+
   Fields next_line(const char* what) {
     if (cursor_.remaining() == 0)
       throw InputError({file_, line_}, std::string("ends before ") + what, "it was not written completely");

@@ -94,6 +94,17 @@ void warn(const Mesh& mesh, const std::string& path, const Boundary& boundary, b
                  coordinates(mesh.points[static_cast<std::size_t>(touched.front())]) + more +
                  "; SCHISM stops at such nodes, so move the boundaries apart");
   }
+  const auto opens_one_edge = [](const BoundaryString& string) {
+    return string.type == kOpenType && string.vertices.size() == 2;
+  };
+  if (const auto count = std::ranges::count_if(boundary.strings, opens_one_edge); count > 0) {
+    const std::int32_t first = std::ranges::find_if(boundary.strings, opens_one_edge)->vertices.front();
+    options.warn(
+        path + ": " + std::to_string(count) + (count == 1 ? " open boundary has" : " open boundaries have") +
+        " two nodes alone, at node " + std::to_string(first + 1) + ' ' +
+        coordinates(mesh.points[static_cast<std::size_t>(first)]) + (count == 1 ? "" : " and elsewhere") +
+        "; if these are creeks that the frame of the domain cuts, give a length from which on boundaries are open");
+  }
   std::map<std::int32_t, std::size_t> lost = count_types(mesh);
   std::erase_if(lost, [](const auto& count) { return !weir_columns(count.first); });
   if (has_weirs)
@@ -115,7 +126,8 @@ void write_fort14(const Mesh& mesh, const std::string& path, const WriteOptions&
   std::stable_partition(land.begin(), land.end(),
                         [](const BoundaryString& string) { return !string.closed; });  // islands last
   FileSink sink(path);
-  sink.text("driftmesh\n");
+  sink.text(mesh.coordinates.empty() ? kFort14Title : kFort14Title + (' ' + mesh.coordinates));
+  sink.character('\n');
   write_line(sink, {mesh.triangles.size(), mesh.points.size()}, "number of elements and nodes");
   write_nodes(sink, mesh);
   write_triangles(sink, mesh);

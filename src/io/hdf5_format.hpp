@@ -24,6 +24,7 @@ struct Hdf5Shape {
   std::uint64_t lines = 0;
   VtuArrays arrays;
   Names names{};
+  std::string coordinates{};  ///< see Mesh
 };
 /// Where arrays begin, by their names: byte offsets into the file. An array without elements has no place.
 using Hdf5Places = std::map<std::string, std::uint64_t>;

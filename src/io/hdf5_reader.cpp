@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -29,6 +30,7 @@ class Hdf5Reader {
 
   Mesh read() {
     read_points();
+    read_names_on_points();
     read_cells();
     read_data();
     for_each_name<std::int32_t>(
@@ -108,6 +110,29 @@ class Hdf5Reader {
     for (std::size_t v = 0; v < rows; ++v) mesh_.points[v] = {vertices.values[2 * v], vertices.values[2 * v + 1]};
   }
 
+  void read_names_on_points() {
+    std::map<std::int32_t, std::string> attributes;
+    for_each_name<std::int32_t>("/geometry/vertices",
+                                [&](auto number, std::string name) { attributes.emplace(number, std::move(name)); });
+    for (const auto& [number, name] : attributes) {
+      if (std::cmp_not_equal(number, mesh_.attribute_names.size()))
+        fail("has names of attributes that are not numbered from 0 on");
+      mesh_.attribute_names.push_back(name);
+    }
+    const Hdf5Handle geometry(H5Gopen(file_.id(), "/geometry", H5P_DEFAULT), H5Gclose);
+    if (!geometry.is_open() || H5Aexists(geometry.id(), "coordinates") <= 0) return;
+    const Hdf5Handle words(H5Aopen(geometry.id(), "coordinates", H5P_DEFAULT), H5Aclose);
+    const Hdf5Handle type(H5Aget_type(words.id()), H5Tclose);
+    const Hdf5Handle space(H5Aget_space(words.id()), H5Sclose);
+    if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) != 0 ||
+        H5Sget_simple_extent_npoints(space.id()) != 1 || H5Tget_size(type.id()) > 1000)
+      return;
+    std::string text(H5Tget_size(type.id()), '\0');
+    if (H5Aread(words.id(), type.id(), text.data()) < 0) return;
+    text = text.c_str();  // up to the padding
+    if (fault_of_name(text).empty()) mesh_.coordinates = text;
+  }
+
   /// A point that does not exist becomes one that check_read_mesh refuses.
   [[nodiscard]] static std::int32_t index(std::int64_t row) {
     return std::in_range<std::int32_t>(row) ? static_cast<std::int32_t>(row) : -1;
@@ -133,7 +158,14 @@ class Hdf5Reader {
     if (has(on_points + "marker")) mesh_.point_markers = array<std::int32_t>(on_points + "marker", points, 1).values;
     if (has(on_points + "global_number"))
       mesh_.numbers = array<std::int64_t>(on_points + "global_number", points, 1).values;
-    if (has(on_points + "attribute")) {
+    const std::size_t width = mesh_.attribute_names.size();
+    for (std::size_t k = 0; k < width; ++k) {
+      const std::vector<double> values = array<double>(on_points + mesh_.attribute_names[k], points, 1).values;
+      mesh_.attributes.resize(points * width);
+      for (std::size_t v = 0; v < points; ++v) mesh_.attributes[v * width + k] = values[v];
+    }
+    mesh_.attributes_per_point = static_cast<std::int32_t>(width);
+    if (width == 0 && has(on_points + "attribute")) {
       Array<double> attributes = array<double>(on_points + "attribute", points, 0);
       mesh_.attributes_per_point = narrow<std::int32_t>(attributes.columns, "attributes");
       mesh_.attributes = std::move(attributes.values);

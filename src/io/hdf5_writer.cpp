@@ -103,6 +103,12 @@ class Hdf5Maker {
     array<std::int32_t>("/tags/facets", {shape_.lines});
     name_values("/tags/cells", shape_.names.regions);
     name_values("/tags/facets", shape_.names.markers);
+    std::map<std::int32_t, std::string> attributes;
+    for (const std::string& name : shape_.arrays.attribute_names) attributes.emplace(attributes.size(), name);
+    name_values("/geometry/vertices", attributes);
+    if (shape_.coordinates.empty()) return;
+    const Hdf5Handle geometry(H5Gopen(file_.id(), "/geometry", H5P_DEFAULT), H5Gclose);
+    name(geometry, "coordinates", shape_.coordinates);
   }
 
   [[nodiscard]] std::uint64_t cells() const { return shape_.triangles + shape_.lines; }
@@ -269,10 +275,13 @@ class Hdf5PartWriter {
     if (arrays.numbers)
       points<std::int64_t>(data + "global_number", 1, [&](auto v, auto* row) { *row = mesh_.numbers[v]; });
     const auto k = static_cast<std::size_t>(arrays.attributes);
-    if (k > 0)
+    if (k > 0 && arrays.attribute_names.empty())
       points<double>(data + "attribute", k, [&](auto v, auto* row) {
         std::copy_n(mesh_.attributes.begin() + static_cast<std::ptrdiff_t>(v * k), k, row);
       });
+    for (std::size_t i = 0; i < arrays.attribute_names.size(); ++i)
+      points<double>(data + arrays.attribute_names[i], 1,
+                     [&](auto v, auto* row) { *row = mesh_.attributes[v * k + i]; });
   }
 
   void corners_of_triangle(std::size_t t, std::int64_t* row) const {
@@ -367,7 +376,8 @@ void write_hdf5_part(const std::string& file, const std::string& path, const Hdf
 void write_hdf5(const Mesh& mesh, const std::string& path) {
   AtomicFile file(path);
   const std::string& name = file.name_meanwhile();
-  const Hdf5Shape shape{mesh.points.size(), mesh.triangles.size(), mesh.edges.size(), arrays_of(mesh), mesh.names};
+  const Hdf5Shape shape{mesh.points.size(), mesh.triangles.size(), mesh.edges.size(), arrays_of(mesh),
+                        mesh.names,         mesh.coordinates};
   const Hdf5Part part{.mesh = mesh,
                       .points = numbered<std::int32_t>(mesh.points.size()),
                       .lines = numbered<std::int32_t>(mesh.edges.size()),

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <utility>
 
 #include "base/file_bytes.hpp"
 #include "base/standard_streams.hpp"
 #include "driftmesh/error.hpp"
+#include "io/other_coordinates.hpp"
+#include "io/short_openings.hpp"
 #include "pslg/names.hpp"
 
 namespace driftmesh {
@@ -87,22 +90,68 @@ void require_whole(const std::string& path) {
                      "write a " + std::string(format.whole));
 }
 
+namespace {
+
+void check_attribute_names(const Mesh& mesh, const std::string& path) {
+  for (const std::string& name : mesh.attribute_names)
+    if (const std::string fault =
+            is_array_on_points(name) ? "is that of something else on points" : fault_of_name(name);
+        !fault.empty())
+      throw InputError({path, 0}, "the name '" + name + "' of an attribute " + fault, "choose another");
+  if (!mesh.attribute_names.empty() && std::cmp_not_equal(mesh.attribute_names.size(), mesh.attributes_per_point))
+    throw InputError({path, 0}, "has other numbers of attributes and of names for them", "name all of them, or none");
+}
+
+/// `coordinates`: those of the file, empty for those of the mesh.
+void write_changed(Mesh mesh, const std::string& coordinates, const std::string& path, const WriteOptions& options) {
+  if (format_of(path).is_grid && options.open_from > 0) close_short_openings(mesh, options);
+  Mesh holes;
+  holes.points = options.holes;
+  holes.coordinates = mesh.coordinates;
+  change_coordinates(mesh, coordinates, path);
+  change_coordinates(holes, coordinates, path);
+  WriteOptions moved = options;
+  moved.holes = std::move(holes.points);
+  format_of(path).write(mesh, path, moved);
+}
+
+}  // namespace
+
 void write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options) {
   check_names(mesh.names, path);
+  check_attribute_names(mesh, path);
   require_whole(path);
   const MeshFormat& format = format_of(path);
-  format.write(mesh, path, options);
+  const std::string wanted = coordinates_wanted(mesh, path, options);
+  if (!wanted.empty() || (format.is_grid && options.open_from > 0))
+    write_changed(mesh, wanted, path, options);
+  else
+    format.write(mesh, path, options);
   if (!options.warn) return;
   if (const std::string lost = lost_parts(mesh, format.keeps); !lost.empty())
     options.warn(path + ": has no place for " + lost);
 }
 
-Mesh read_mesh(const std::string& path, const ReadOptions& options) {
-  const MeshFormat& format = format_of(path);
-  if (format.read != nullptr) return format.read(path, options);
-  if (format.parse != nullptr) return format.parse(path, FileBytes(path, format.begins).view());
+namespace {
+
+[[noreturn]] void refuse_to_read(const std::string& path) {
   throw InputError({path, 0}, "is in a format that is written, but not read",
                    "keep the mesh in one of " + mesh_files_read());
+}
+
+}  // namespace
+
+Mesh read_mesh(const std::string& path, const ReadOptions& options) {
+  const MeshFormat& format = format_of(path);
+  Mesh mesh;
+  if (format.read != nullptr)
+    mesh = format.read(path, options);
+  else if (format.parse != nullptr)
+    mesh = format.parse(path, FileBytes(path, format.begins).view());
+  else
+    refuse_to_read(path);
+  return_to_plane(mesh, path);
+  return mesh;
 }
 
 bool is_mesh_file(const std::string& path) {

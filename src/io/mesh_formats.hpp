@@ -20,6 +20,7 @@ struct MeshFormat {
   std::vector<std::string_view> extensions;  ///< the first stands for the format
   std::string_view remark{};                 ///< for help: who reads it, or what is special
   MeshParts keeps = 0;                       ///< what is written, and comes back when it is read
+  bool is_grid = false;                      ///< longitudes and latitudes are the custom, if the domain has them
 
   /// Null for pieces.
   void (*write)(const Mesh& mesh, const std::string& path, const WriteOptions& options) = nullptr;

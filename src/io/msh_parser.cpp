@@ -10,6 +10,7 @@
 #include "io/msh_groups.hpp"
 #include "io/msh_input.hpp"
 #include "io/read_checks.hpp"
+#include "pslg/names.hpp"
 
 namespace driftmesh {
 namespace {
@@ -68,6 +69,8 @@ class MshParser {
       parse_point_markers();
     else if (name == "DriftmeshValues")
       parse_group_values();
+    else if (name == "DriftmeshCoordinates")
+      parse_coordinates();
     else
       return false;
     return true;
@@ -284,10 +287,13 @@ class MshParser {
   bool parse_node_data(Input& input) {
     const View view = parse_view_header("$NodeData");
     if (!view.name.starts_with("\"attribute ")) return false;
-    const std::string expected = "\"attribute " + std::to_string(raw_.attributes.size() + 1) + "\"";
-    if (view.name != expected) fail("has the view " + std::string(view.name) + " in place of " + expected, kDamaged);
+    const std::string begin = "\"attribute " + std::to_string(raw_.attributes.size() + 1);
+    const bool is_named = view.name.starts_with(begin + ": ") && view.name.ends_with('"');
+    if (view.name != begin + '"' && !is_named)
+      fail("has the view " + std::string(view.name) + " in place of " + begin + '"', kDamaged);
     if (raw_.attributes.size() == kMaxAttributes) fail("has more than 1000 attributes", kDamaged);
     RawMsh::Attribute& attribute = raw_.attributes.emplace_back();
+    if (is_named) attribute.name = view.name.substr(begin.size() + 2, view.name.size() - begin.size() - 3);
     for (std::int32_t left = count_of_values(view); left > 0; --left) {
       attribute.nodes.push_back(input.integer());
       attribute.values.push_back(input.real());
@@ -321,6 +327,11 @@ class MshParser {
       const std::uint64_t node = input.size();
       raw_.point_markers->push_back({node, input.integer()});
     }
+  }
+
+  void parse_coordinates() {
+    const std::string words(take_title());
+    if (fault_of_name(words).empty()) raw_.coordinates = words;
   }
 
   void parse_group_values() {

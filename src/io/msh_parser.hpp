@@ -23,6 +23,7 @@ struct RawMsh {
     std::vector<std::int32_t> entities;
   };
   struct Attribute {
+    std::string name;  ///< empty: none
     std::vector<std::int32_t> nodes;
     std::vector<double> values;
   };
@@ -46,6 +47,7 @@ struct RawMsh {
   std::vector<ElementValue> subdomains;
   std::vector<ElementValue> ranks;
   std::optional<std::vector<Marker>> point_markers;
+  std::string coordinates;                   ///< see Mesh
   std::map<EntityKey, double> group_values;  ///< markers and regions that neither name nor tag of the group says
 };
 

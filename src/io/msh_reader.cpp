@@ -37,6 +37,7 @@ class MshAssembler {
     place_attributes();
     place_point_markers();
     place_names();
+    mesh_.coordinates = raw_.coordinates;
     return std::move(mesh_);
   }
 
@@ -176,6 +177,8 @@ class MshAssembler {
     const std::size_t per_point = raw_.attributes.size();
     mesh_.attributes_per_point = narrow<std::int32_t>(per_point, "attributes");
     mesh_.attributes.assign(per_point * mesh_.points.size(), 0);
+    if (std::ranges::none_of(raw_.attributes, [](const auto& attribute) { return attribute.name.empty(); }))
+      for (const RawMsh::Attribute& attribute : raw_.attributes) mesh_.attribute_names.push_back(attribute.name);
     for (std::size_t k = 0; k < per_point; ++k) {
       std::vector<bool> has_value(mesh_.points.size(), false);
       if (raw_.attributes[k].nodes.size() != mesh_.points.size())

@@ -204,7 +204,9 @@ void write_value(MshOutput& out, std::size_t tag, double value) {
 }
 
 void write_attribute(MshOutput& out, const Mesh& mesh, std::size_t k) {
-  begin_view(out, "NodeData", "attribute " + std::to_string(k + 1), mesh.points.size());
+  std::string name = "attribute " + std::to_string(k + 1);
+  if (!mesh.attribute_names.empty()) name += ": " + mesh.attribute_names[k];
+  begin_view(out, "NodeData", name, mesh.points.size());
   const std::size_t per_point = mesh.attributes_per_point;
   for (std::size_t v = 0; v < mesh.points.size(); ++v) write_value(out, v + 1, mesh.attributes[v * per_point + k]);
   out.end("NodeData");
@@ -239,6 +241,13 @@ void write_point_markers(FileSink& sink, const std::vector<std::int32_t>& marker
   sink.text("$EndDriftmeshPointMarkers\n");
 }
 
+void write_coordinates(FileSink& sink, const std::string& coordinates) {
+  if (coordinates.empty()) return;
+  sink.text("$DriftmeshCoordinates\n");
+  sink.text(coordinates);
+  sink.text("\n$EndDriftmeshCoordinates\n");
+}
+
 /// The markers and regions of groups whose names say something else and whose tags cannot be these values.
 void write_values(FileSink& sink, const MshClassification& classes) {
   std::size_t hidden = 0;
@@ -266,6 +275,7 @@ void write_msh(const Mesh& mesh, const std::string& path, bool ascii) {
   write_elements(out, mesh, classes);
   write_views(out, mesh, classes);
   write_values(out.text(), classes);
+  write_coordinates(out.text(), mesh.coordinates);
   if (!mesh.point_markers.empty()) write_point_markers(out.text(), mesh.point_markers);
   out.commit();
 }

@@ -11,6 +11,7 @@
 #include "driftmesh/error.hpp"
 #include "io/byte_cursor.hpp"
 #include "io/mesh_file.hpp"
+#include "io/other_coordinates.hpp"
 #include "io/pvtu_format.hpp"
 #include "io/read_checks.hpp"
 #include "io/xml_scanner.hpp"
@@ -47,8 +48,8 @@ class PvtuFile {
 
  private:
   template <class T>
-  void declare(const char* name, std::int32_t components) {
-    sink_.text(std::string("      <PDataArray type=\"") + vtk_type_name<T>() + "\" Name=\"" + name + '"');
+  void declare(const std::string& name, std::int32_t components) {
+    sink_.text(std::string("      <PDataArray type=\"") + vtk_type_name<T>() + "\" Name=\"" + escaped(name) + '"');
     if (components != 1) sink_.text(" NumberOfComponents=\"" + std::to_string(components) + '"');
     sink_.text("/>\n");
   }
@@ -147,7 +148,9 @@ std::size_t PieceFiles::size() const {
 }
 
 Mesh PieceFiles::read(std::size_t k) const {
-  return read_vtu(paths_[k], arrays_);
+  Mesh mesh = read_vtu(paths_[k], arrays_);
+  return_to_plane(mesh, paths_[k]);
+  return mesh;
 }
 
 std::uint64_t PieceFiles::most_bytes() const {

@@ -78,6 +78,10 @@ void check_read_mesh(Mesh& mesh, const std::string& path) {
   check_points(mesh, path);
   check_indices(mesh, path);
   check_lengths(mesh, path);
+  make_counterclockwise(mesh);
+}
+
+void make_counterclockwise(Mesh& mesh) {
   if (twice_total_area(mesh) < 0)
     for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
 }

@@ -15,4 +15,7 @@ inline constexpr const char* kDamaged = "the file is damaged or was not written 
 /// file.
 void check_read_mesh(Mesh& mesh, const std::string& path);
 
+/// Reverses all triangles if the total area is negative.
+void make_counterclockwise(Mesh& mesh);
+
 }  // namespace driftmesh

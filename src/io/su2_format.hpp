@@ -14,6 +14,9 @@ inline constexpr std::int32_t kSu2Triangle = 5;
 /// What a comment begins with that tells the number of a marker, its tag in the file, which is one word, and its name.
 inline constexpr std::string_view kSu2NameComment = "% driftmesh marker ";
 
+/// What a comment begins with that tells what the coordinates of points are (see Mesh).
+inline constexpr std::string_view kSu2Coordinates = "% driftmesh coordinates ";
+
 /// The native format of SU2, text: triangles, points, and a marker for each marker of the boundary, called by its name,
 /// or else by its number. Where names have characters with a meaning in settings of SU2, these become '_'. Comments at
 /// the beginning say which marker each name is for. Markers of SU2 are boundaries of the domain, so subsegments inside

@@ -60,6 +60,9 @@ class Su2Parser {
       const std::string_view line = cursor_.take_line();
       ++line_number_;
       if (line.starts_with(kSu2NameComment)) take_name(line.substr(kSu2NameComment.size()));
+      if (line.starts_with(kSu2Coordinates))
+        if (const std::string words(trimmed(line.substr(kSu2Coordinates.size()))); fault_of_name(words).empty())
+          mesh_.coordinates = words;
       line_ = trimmed(line.substr(0, line.find('%')));
       if (!line_.empty()) return true;
     }

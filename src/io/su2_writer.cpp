@@ -86,6 +86,11 @@ void write_su2(const Mesh& mesh, const std::string& path) {
   const Boundaries boundaries = boundaries_of(mesh);
   const Tags tags = tags_of(boundaries, mesh.names);
   write_names(sink, tags, mesh.names);
+  if (!mesh.coordinates.empty()) {
+    sink.text(kSu2Coordinates);
+    sink.text(mesh.coordinates);
+    sink.character('\n');
+  }
   sink.text("NDIME= 2\n");
   write_count(sink, "NELEM", mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) sink.line(kSu2Triangle, mesh.triangles[t], t);

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "driftmesh/mesh.hpp"
 #include "io/file_sink.hpp"
@@ -23,9 +24,16 @@ struct VtuArrays {
   bool ranks = false;
   bool ghosts = false;       ///< on points
   bool ghost_cells = false;  ///< on triangles of other pieces
+  /// Empty: attributes are the components of one array; otherwise each has an array with its name.
+  std::vector<std::string> attribute_names{};
 };
 /// The arrays for which the mesh has values.
 [[nodiscard]] VtuArrays arrays_of(const Mesh& mesh);
+
+/// Whether files have something of this name among the values of points, so that no attribute can have it.
+[[nodiscard]] inline bool is_array_on_points(std::string_view name) {
+  return name == "marker" || name == "attribute" || name == "global_number" || name == "vtkGhostType";
+}
 
 /// Calls visit(a null pointer of the type, name, components) for each array on points, in the order of the file.
 template <class Visit>
@@ -35,7 +43,8 @@ void for_each_point_array(const VtuArrays& arrays, const Visit& visit) {
   constexpr const std::int64_t* kInt64 = nullptr;
   constexpr const double* kFloat64 = nullptr;
   if (arrays.point_markers) visit(kInt32, "marker", 1);
-  if (arrays.attributes > 0) visit(kFloat64, "attribute", arrays.attributes);
+  if (arrays.attributes > 0 && arrays.attribute_names.empty()) visit(kFloat64, "attribute", arrays.attributes);
+  for (const std::string& name : arrays.attribute_names) visit(kFloat64, name.c_str(), 1);
   if (arrays.numbers) visit(kInt64, "global_number", 1);
   if (arrays.ghosts) visit(kUInt8, "vtkGhostType", 1);
 }
@@ -52,10 +61,13 @@ void for_each_cell_array(const VtuArrays& arrays, const Visit& visit) {
   if (arrays.ghost_cells) visit(kUInt8, "vtkGhostType");
 }
 
-// Names of markers and regions are arrays of the field data, which are called so and have two components: the number
-// that has the name, and the dimension of what has it. These are the names of the first component.
+// Names of markers, regions and attributes are arrays of the field data, which are called so and have two components:
+// the number that has the name (attributes count from 0), and the dimension of what has it. So is Mesh::coordinates, of
+// number 0. These are the names of the first component.
 inline constexpr const char* kMarkerOfName = "marker";
 inline constexpr const char* kRegionOfName = "region";
+inline constexpr const char* kAttributeOfName = "attribute";
+inline constexpr const char* kCoordinatesOfName = "coordinates";
 
 /// VTK's numbers of kinds of cells.
 inline constexpr std::uint8_t kVtkLine = 3, kVtkTriangle = 5;
@@ -70,8 +82,9 @@ template <class T>
 }
 
 /// One VTK unstructured grid: the triangles, then the constrained edges as line cells, as raw appended binary data.
-/// Point data "marker", "attribute" and "global_number"; cell data "marker" (0 on triangles), "region", "subdomain" and
-/// "rank" (on a line, those of an adjacent triangle); each only if the mesh has it.
+/// Point data "marker", "attribute" (or the attributes' names) and "global_number"; cell data "marker" (0 on
+/// triangles), "region", "subdomain" and "rank" (on a line, those of an adjacent triangle); each only if the mesh has
+/// it.
 void write_vtu(const Mesh& mesh, const std::string& path);
 /// What VTK calls a point or a cell that another piece of the mesh counts, and so leaves out of sums and counts.
 inline constexpr std::uint8_t kDuplicate = 1;

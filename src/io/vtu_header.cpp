@@ -57,13 +57,18 @@ class VtuHeaderParser {
   static bool lies_in(const XmlTag& tag, const Path& path) { return tag.parents == path; }
   static bool is_array(std::string_view name) { return name == "DataArray" || name == "Array"; }
 
+  static std::string section_of_names(std::string_view what) {
+    if (what == kMarkerOfName) return VtuHeader::kMarkerNames;
+    if (what == kRegionOfName) return VtuHeader::kRegionNames;
+    if (what == kAttributeOfName) return VtuHeader::kAttributeNames;
+    return what == kCoordinatesOfName ? VtuHeader::kCoordinates : "";
+  }
+
   /// Section of the piece (PointData, CellData, Points, Cells) or, in the field data, the kind of names; empty for all
   /// that a mesh has no place for.
   static std::string section_of(const XmlTag& tag) {
     if (lies_in(tag, {"VTKFile", "UnstructuredGrid", "FieldData"}) && tag.attribute("ComponentName1") == "dimension")
-      return tag.attribute("ComponentName0") == kMarkerOfName   ? VtuHeader::kMarkerNames
-             : tag.attribute("ComponentName0") == kRegionOfName ? VtuHeader::kRegionNames
-                                                                : "";
+      return section_of_names(tag.attribute("ComponentName0"));
     for (const std::string_view section : {"PointData", "CellData", "Points", "Cells"})
       if (lies_in(tag, {"VTKFile", "UnstructuredGrid", "Piece", section})) return std::string(section);
     return "";

@@ -30,9 +30,11 @@ struct VtuHeader {
     std::size_t line = 0;
   };
   using Name = std::pair<std::string, std::string>;  ///< section (PointData, ...) and name
-  // The sections of arrays in the field data that name markers and regions.
+  // The sections of arrays in the field data that name something.
   static constexpr const char* kMarkerNames = "FieldData of markers";
   static constexpr const char* kRegionNames = "FieldData of regions";
+  static constexpr const char* kAttributeNames = "FieldData of attributes";
+  static constexpr const char* kCoordinates = "FieldData of coordinates";
 
   std::uint64_t points = 0;
   std::uint64_t cells = 0;

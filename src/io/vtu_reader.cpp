@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <map>
 #include <utility>
+#include <vector>
 
 #include "base/file_bytes.hpp"
 #include "base/huge_pages.hpp"
@@ -96,10 +98,24 @@ void read_points(Mesh& mesh, const std::string& path, const VtuArrayReader& arra
   }
 }
 
+/// The attributes that have names, each an array of its own.
+void read_named_attributes(Mesh& mesh, const VtuArrayReader& arrays, std::uint64_t count) {
+  const std::size_t width = mesh.attribute_names.size();
+  for (std::size_t k = 0; k < width; ++k) {
+    const std::string name = escaped(mesh.attribute_names[k]);
+    const std::vector<double> values = arrays.open<double>(arrays.get("PointData", name.c_str()), count).all();
+    mesh.attributes.resize(values.size() * width);
+    for (std::size_t v = 0; v < values.size(); ++v) mesh.attributes[v * width + k] = values[v];
+  }
+  mesh.attributes_per_point = static_cast<std::int32_t>(width);
+}
+
 void read_point_data(Mesh& mesh, const VtuArrayReader& arrays, std::uint64_t count) {
   if (const VtuHeader::Array* const marker = arrays.find("PointData", "marker"))
     mesh.point_markers = arrays.open<std::int32_t>(*marker, count).all();
-  if (const VtuHeader::Array* const attribute = arrays.find("PointData", "attribute")) {
+  if (!mesh.attribute_names.empty()) {
+    read_named_attributes(mesh, arrays, count);
+  } else if (const VtuHeader::Array* const attribute = arrays.find("PointData", "attribute")) {
     mesh.attributes = arrays.open<double>(*attribute, count, kMostAttributes).all();
     mesh.attributes_per_point = static_cast<std::int32_t>(attribute->components);
   }
@@ -153,13 +169,24 @@ GhostCells read_cells(Mesh& mesh, const std::string& path, const VtuArrayReader&
   return read_ghosts(arrays, cells, count);
 }
 
-void read_names(Mesh& mesh, const VtuHeader& header, const VtuArrayReader& arrays) {
+/// Before the attributes, which are found by their names.
+void read_names(Mesh& mesh, const std::string& path, const VtuHeader& header, const VtuArrayReader& arrays) {
+  std::map<std::int32_t, std::string> attributes;
   for (const auto& [place, array] : header.arrays) {
     const auto& [section, name] = place;
     if (section == VtuHeader::kMarkerNames)
       add_marker_name(mesh.names, arrays.open<std::int32_t>(array, 1, 2).next(), unescaped(name));
     if (section == VtuHeader::kRegionNames)
       add_region_name(mesh.names, arrays.open<double>(array, 1, 2).next(), unescaped(name));
+    if (section == VtuHeader::kAttributeNames)
+      attributes.emplace(arrays.open<std::int32_t>(array, 1, 2).next(), unescaped(name));
+    if (section == VtuHeader::kCoordinates && fault_of_name(unescaped(name)).empty())
+      mesh.coordinates = unescaped(name);
+  }
+  for (const auto& [number, name] : attributes) {
+    if (std::cmp_not_equal(number, mesh.attribute_names.size()))
+      throw InputError({path, 0}, "has names of attributes that are not numbered from 0 on", kDamaged);
+    mesh.attribute_names.push_back(name);
   }
 }
 
@@ -183,9 +210,9 @@ Mesh parse_vtu(const std::string& file, std::string_view bytes, std::span<const 
   const VtuArrayReader arrays(file, header);
   Mesh mesh;
   read_points(mesh, file, arrays, header.points);
+  read_names(mesh, file, header, arrays);
   read_point_data(mesh, arrays, header.points);
   const GhostCells ghosts = read_cells(mesh, file, arrays, header.cells);
-  read_names(mesh, header, arrays);
   check_read_mesh(mesh, file);
   if (std::ranges::count(ghosts.triangles, true) > 0) drop_ghosts(mesh, ghosts);
   return mesh;

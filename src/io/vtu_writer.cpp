@@ -54,7 +54,7 @@ struct Counts {
 void declare_point_data(VtuFile& file, const VtuArrays& arrays, const Counts& counts) {
   file.header(arrays.numbers ? "      <PointData GlobalIds=\"global_number\">\n" : "      <PointData>\n");
   for_each_point_array(arrays, [&]<class T>(const T*, const char* name, std::int32_t components) {
-    file.declare<T>(name, counts.points * components, components);
+    file.declare<T>(escaped(name), counts.points * components, components);
   });
   file.header("      </PointData>\n");
 }
@@ -94,21 +94,26 @@ void declare_names(VtuFile& file, const std::map<Value, std::string>& names, con
   }
 }
 
-void declare_field_data(VtuFile& file, const Names& names) {
-  if (names.empty()) return;
+void declare_field_data(VtuFile& file, const Mesh& mesh) {
+  using Numbered = std::map<std::int32_t, std::string>;
+  if (mesh.names.empty() && mesh.attribute_names.empty() && mesh.coordinates.empty()) return;
+  Numbered attributes;
+  for (const std::string& name : mesh.attribute_names) attributes.emplace(attributes.size(), name);
   file.header("    <FieldData>\n");
-  declare_names(file, names.markers, kMarkerOfName, 1);
-  declare_names(file, names.regions, kRegionOfName, 2);
+  declare_names(file, mesh.names.markers, kMarkerOfName, 1);
+  declare_names(file, mesh.names.regions, kRegionOfName, 2);
+  declare_names(file, attributes, kAttributeOfName, 0);
+  if (!mesh.coordinates.empty()) declare_names(file, Numbered{{0, mesh.coordinates}}, kCoordinatesOfName, 0);
   file.header("    </FieldData>\n");
 }
 
 template <class Offset>
-void write_header(VtuFile& file, const VtuArrays& arrays, const Counts& counts, const Names& names) {
+void write_header(VtuFile& file, const VtuArrays& arrays, const Counts& counts, const Mesh& mesh) {
   file.header(
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
       "  <UnstructuredGrid>\n");
-  declare_field_data(file, names);
+  declare_field_data(file, mesh);
   file.header("    <Piece NumberOfPoints=\"" + std::to_string(counts.points) + "\" NumberOfCells=\"" +
               std::to_string(counts.cells) + "\">\n");
   declare_point_data(file, arrays, counts);
@@ -119,7 +124,12 @@ void write_header(VtuFile& file, const VtuArrays& arrays, const Counts& counts, 
 
 void write_point_data(VtuFile& file, const Mesh& mesh, const VtuArrays& arrays, const VtuGhosts& ghosts) {
   if (arrays.point_markers) file.array(mesh.point_markers);
-  if (arrays.attributes > 0) file.array(mesh.attributes);
+  if (arrays.attributes > 0 && arrays.attribute_names.empty()) file.array(mesh.attributes);
+  for (std::size_t k = 0; k < arrays.attribute_names.size(); ++k) {
+    file.begin_array<double>(mesh.points.size());
+    file.sink().raw_values(mesh.points.size(),
+                           [&](std::size_t v) { return mesh.attributes[v * arrays.attribute_names.size() + k]; });
+  }
   if (arrays.numbers) file.array(mesh.numbers);
   if (arrays.ghosts) file.array(ghosts.points);
 }
@@ -199,7 +209,7 @@ void write_grid(VtuFile& file, const Mesh& mesh, const Counts& counts) {
 template <class Offset>
 void write_all(VtuFile& file, const Mesh& mesh, const VtuArrays& arrays, const VtuGhosts& ghosts,
                const Counts& counts) {
-  write_header<Offset>(file, arrays, counts, mesh.names);
+  write_header<Offset>(file, arrays, counts, mesh);
   write_point_data(file, mesh, arrays, ghosts);
   write_cell_data(file, mesh, arrays, ghosts, counts);
   write_grid<Offset>(file, mesh, counts);
@@ -217,7 +227,8 @@ VtuArrays arrays_of(const Mesh& mesh) {
           !mesh.subdomains.empty(),
           !mesh.ranks.empty(),
           false,
-          false};
+          false,
+          mesh.attribute_names};
 }
 
 std::unique_ptr<FileSink> prepare_vtu(const Mesh& mesh, const VtuArrays& arrays, const std::string& path,

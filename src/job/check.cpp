@@ -8,6 +8,9 @@
 
 #include "base/nearest_name.hpp"
 #include "driftmesh/error.hpp"
+#include "gis/coordinates.hpp"
+#include "gis/projection.hpp"
+#include "io/other_coordinates.hpp"
 #include "job/contour.hpp"
 #include "job/domain.hpp"
 #include "job/keys.hpp"
@@ -67,6 +70,11 @@ void check_input(const Request::Input& input) {
           input.contour_box.empty() ? "input.contour-seeds" : "input.contour-box", "serves {input.contour} alone",
           "give a raster and a level by {input.contour}, or remove it");
   if (!input.contour.empty()) static_cast<void>(contour_of(input));
+  require(!input.degrees || !input.file.empty() || input.generator.empty(), "input.degrees",
+          "is about a file, but the domain is generated", "remove it");
+  if (input.projection != "auto" && !projection_named(input.projection))
+    throw KeyError("input.projection", "is '" + input.projection + "'",
+                   "write auto, a zone such as 'UTM zone 18N', or 'stereographic at LON LAT'");
   require(!input.generator.empty() || input.parameters.empty(), "input.parameters", "needs a model to generate",
           "name one with {input.generate}");
   if (input.generator.empty()) return;
@@ -76,6 +84,11 @@ void check_input(const Request::Input& input) {
     throw KeyError("input.generate", KeyText::of("is invalid: {}", text_of(error)),
                    "driftmesh generate --help lists the models and their parameters");
   }
+}
+
+void check_crs(const std::string& crs) {
+  if (crs != kByFormat && crs != kProjected && crs != kLonLat && !epsg_from(crs))
+    throw KeyError("output.crs", "is '" + crs + "'", "write auto, lonlat, projected, or a code such as EPSG:3035");
 }
 
 void check_rasters(const Request& request) {
@@ -239,6 +252,7 @@ void check(const Request& request, PlaceKind place, const balancer::PolicyMaker&
   check_places(request, place);
   check_input(request.input);
   static_cast<void>(names_of(request.input));
+  check_crs(request.output.crs);
   check_rasters(request);
   check_sizes(request.bounds, request.sizing);
   check_step(request.sizing, request.output.depth);

@@ -144,7 +144,7 @@ InputFile contour_input(const Request::Input& input) {
   features.in_degrees = system.in_degrees;
   features.projection = system.projection;
   if (!system.in_degrees) features.system = kInMeters;
-  return input_of(file, std::move(features));
+  return input_of(file, std::move(features), input.projection);
 }
 
 }  // namespace driftmesh::job

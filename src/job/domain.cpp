@@ -12,6 +12,7 @@
 #include "driftmesh/repair.hpp"
 #include "job/contour.hpp"
 #include "job/files.hpp"
+#include "job/input_file.hpp"
 #include "job/key.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/domain_outline.hpp"
@@ -28,7 +29,7 @@ namespace {
 InputFile raw_input(const Request::Input& input, const Given& given) {
   if (given.input != nullptr) return {*given.input, {}, {}};
   if (!input.contour.empty()) return contour_input(input);
-  if (input.generator.empty()) return read_input(input.file, input.layers);
+  if (input.generator.empty()) return read_domain_file(input.file, input);
   return {generate(input.generator, input.parameters), {}, {}};
 }
 
@@ -105,7 +106,7 @@ void name_markers_and_regions(const Request& request, Pslg& pslg) {
 }
 
 void open_rasters(const Request& request, Domain& domain, Watch& watch) {
-  domain.rasters = rasters_of(request, domain.projection);
+  domain.rasters = rasters_of(request, domain.projection, domain.from_lonlat);
   if (domain.rasters.files.empty()) return;
   if (!request.output.depth.empty() && domain.pslg.attributes_per_point > 0)
     throw Keyed<InputError>({input_name(request)}, "has attributes of points, but depths would take their place",
@@ -138,6 +139,7 @@ Domain read_domain(const Request& request, const Given& given, Watch& watch) {
   InputFile input = timed(watch, "read", [&] { return raw_input(request.input, given); });
   domain.pslg = std::move(input.pslg);
   domain.projection = std::move(input.projection);
+  domain.from_lonlat = input.from_lonlat;
   check_markers_and_regions(request, domain.pslg);
   name_markers_and_regions(request, domain.pslg);
   warn(request, input.warnings, watch);

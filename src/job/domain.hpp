@@ -29,8 +29,9 @@ struct Given {
 
 /// The domain to be meshed.
 struct Domain {
-  Pslg pslg;               ///< repaired
-  std::string projection;  ///< see InputFile
+  Pslg pslg;                 ///< repaired
+  std::string projection;    ///< see InputFile
+  bool from_lonlat = false;  ///< likewise
   RepairReport repairs;
   SimplifyReport simplified;                         ///< without its points
   Rasters rasters;                                   ///< open

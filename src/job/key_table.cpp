@@ -42,6 +42,15 @@ Section input_section() {
        key("input.layers", &R::input, &R::Input::layers,
            "Of a file with several layers those to read, with commas between their names", option("layers", "NAMES"),
            entry_points(kMesh | kDecompose | kCheck | kExperiment | kPlot)),
+       key("input.degrees", &R::input, &R::Input::degrees,
+           "The domain is in longitudes and latitudes though its file does not say so, as a .poly or a grid of another "
+           "program",
+           option("degrees"), entry_points(kMesh | kDecompose | kCheck | kExperiment | kPlot)),
+       key("input.projection", &R::input, &R::Input::projection,
+           "The plane for a domain in degrees: a zone, such as \"UTM zone 18N\", or \"stereographic at 0 90\" with the "
+           "longitude and latitude of its center; auto: a zone where the domain fits, stereographic around its middle "
+           "or a pole otherwise",
+           option("projection", "NAME"), entry_points(kMesh | kDecompose | kCheck | kExperiment | kPlot)),
        key("input.rasters", &R::input, &R::Input::rasters,
            "A raster, by a name that size expressions and depths use, such as depth=bathymetry.asc: an ESRI ASCII "
            "grid (.asc), or what GDAL reads (GeoTIFF, netCDF). Several, with commas between them, are one: gaps and "
@@ -368,11 +377,21 @@ Section output_section() {
        key("output.open-boundary", &R::output, &R::Output::open_boundary,
            "Markers of the segments that are open sea, in .14, .grd and .gr3 (none: those of markers called open)",
            in(INT32_MIN, INT32_MAX), option("open-boundary", "MARKERS")),
+       key("output.open-from", &R::output, &R::Output::open_from,
+           "Shortest open boundary in .14, .grd and .gr3, along it; shorter ones, such as creeks that the frame of "
+           "the domain cuts, are land",
+           from(0), option("open-from", "LENGTH")),
+       key("output.crs", &R::output, &R::Output::crs,
+           "Coordinates in files: lonlat (degrees on WGS 84), projected (meters of the plane in which the mesh was "
+           "made), a code such as EPSG:3035 (with GDAL), or auto: lonlat in .14, .grd and .gr3 if the domain was "
+           "given in degrees, otherwise projected",
+           option("crs", "SYSTEM")),
        key("output.depth", &R::output, &R::Output::depth,
-           "Give each point the value of the raster of this name as its attribute, the depth in .14, .grd and .gr3",
+           "Give each point the value of the raster of this name as its attribute, called so in .vtu, .h5 and .msh, "
+           "the depth in .14, .grd and .gr3",
            option("depth", "NAME"), entry_points(kMesh | kDecompose | kCheck | kLibrary),
-           option_help("The raster of depths: each point gets its value as its attribute, the depth in .14, .grd and "
-                       ".gr3, and --courant-step asks it")),
+           option_help("The raster of depths: each point gets its value as its attribute, called so in .vtu, .h5 and "
+                       ".msh, the depth in .14, .grd and .gr3, and --courant-step asks it")),
        key("output.picture", &R::output, &R::Output::picture,
            "Picture of the mesh: .png, .svg or .pdf (see also driftmesh plot --help)", output_file(),
            option("plot", "FILE")),

@@ -56,7 +56,10 @@ class RefinedOnRanks final : public Refined {
     const std::vector<Point> holes = run_->holes();
     const DistributedPiece piece = take_piece(watch);
     exchange_on(team_, [&](ExchangeRunner& ranks) {
-      timed(watch, "write", [&] { write_distributed(ranks, piece, files.meshes, writing_of(files, holes, watch)); });
+      timed(watch, "write", [&] {
+        write_distributed(ranks, piece, files.meshes, writing_of(files, holes, watch),
+                          [&](const std::string& path) { watch.writing(path); });
+      });
       if (!draw) return;
       timed(watch, "plot", [&] {
         GatherPieces gathering(piece);

@@ -8,6 +8,7 @@
 #include "distributed/exchange.hpp"
 #include "distributed/write_distributed.hpp"
 #include "io/mesh_file.hpp"
+#include "io/other_coordinates.hpp"
 #include "job/memory.hpp"
 #include "job/write_files.hpp"
 #include "mesh/cdt.hpp"
@@ -68,8 +69,11 @@ class OnePiece final : public Refined {
     DistributedPiece piece = as_piece(timed(watch, "convert", [&] { return converted(); }), in_pieces);
     if (in_pieces)
       timed(watch, "write", [&] {
-        for_each_in_pieces(files, [&](const std::string& path) {
-          WritePieces writing(piece, path);
+        for_each_in_pieces(files, watch, [&](const std::string& path) {
+          const std::string wanted = coordinates_wanted(piece.mesh, path, writing_of(files, {}, watch));
+          DistributedPiece moved;
+          if (!wanted.empty()) change_coordinates((moved = piece).mesh, wanted, path);
+          WritePieces writing(wanted.empty() ? piece : moved, path);
           exchange_directly(IdVector<Rank, Exchange*>{&writing});
         });
       });
@@ -104,7 +108,7 @@ class OnePiece final : public Refined {
   [[nodiscard]] Mesh converted() {
     Mesh mesh = to_piece(std::exchange(mesh_, {}), domain_.pslg);
     interpolate_attributes(domain_.pslg, mesh);
-    set_depths(domain_.rasters, mesh);
+    set_point_data(domain_.rasters, mesh);
     return mesh;
   }
 

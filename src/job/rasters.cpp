@@ -1,9 +1,14 @@
 #include "job/rasters.hpp"
 
 #include <algorithm>
+#include <thread>
 
-#include "gis/transverse_mercator.hpp"
+#include "driftmesh/id_vector.hpp"
+#include "gis/coordinates.hpp"
+#include "gis/projection.hpp"
+#include "io/vtu_format.hpp"
 #include "job/keys.hpp"
+#include "pslg/names.hpp"
 #include "raster/raster.hpp"
 
 namespace driftmesh::job {
@@ -34,6 +39,8 @@ void Rasters::write(ByteWriter& writer) const {
   }
   writer.value(stacking);
   writer.text(projection);
+  writer.value(from_lonlat);
+  writer.value(threads);
   writer.text(depth);
 }
 
@@ -45,20 +52,23 @@ Rasters Rasters::read(ByteReader& reader) {
   }
   rasters.stacking = reader.value<Stacking>();
   rasters.projection = reader.text();
+  rasters.from_lonlat = reader.value<bool>();
+  rasters.threads = reader.value<std::int32_t>();
   rasters.depth = reader.text();
   return rasters;
 }
 
-Rasters rasters_of(const Request& request, const std::string& projection) {
+Rasters rasters_of(const Request& request, const std::string& projection, bool from_lonlat) {
   const Stacking stacking{request.input.raster_blend, request.input.raster_order == RasterOrder::kFinest};
-  return {request.input.rasters, stacking, projection, request.output.depth, {}};
+  return {request.input.rasters, stacking, projection, from_lonlat, request.run.threads, request.output.depth, {}};
 }
 
 std::vector<std::string> open_all(Rasters& rasters, const Box& box, const std::vector<Point>& points) {
+  RasterPlace place{.domain = box, .points = points, .projection = projection_named(rasters.projection)};
+  place.threads = rasters.threads > 0 ? to_index(rasters.threads) : std::max(1U, std::thread::hardware_concurrency());
   std::vector<std::string> warnings;
   for (const auto& [name, file] : rasters.files) {
-    const OpenedRaster opened =
-        open_rasters(files_in(file), {box, points, utm_zone_named(rasters.projection)}, rasters.stacking);
+    const OpenedRaster opened = open_rasters(files_in(file), place, rasters.stacking);
     rasters.open.push_back({name, opened.raster});
     if (opened.outside > 0 || opened.without > 0)
       warnings.push_back(warning_of(name, words_of_files(file), opened, points.size()));
@@ -66,9 +76,14 @@ std::vector<std::string> open_all(Rasters& rasters, const Box& box, const std::v
   return warnings;
 }
 
-void set_depths(const Rasters& rasters, Mesh& mesh) {
+void set_point_data(const Rasters& rasters, Mesh& mesh) {
+  if (!rasters.projection.empty())
+    mesh.coordinates = Coordinates{.projection = rasters.projection, .from_lonlat = rasters.from_lonlat}.text();
   const std::shared_ptr<const Raster> depths = rasters.depths();
   if (!depths) return;
+  mesh.attribute_names.clear();
+  if (!is_array_on_points(rasters.depth) && fault_of_name(rasters.depth).empty())
+    mesh.attribute_names.push_back(rasters.depth);
   mesh.attributes_per_point = 1;
   mesh.attributes.resize(mesh.points.size());
   std::ranges::transform(mesh.points, mesh.attributes.begin(), [&](const Point& p) { return depths->at(p); });

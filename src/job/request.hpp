@@ -50,6 +50,8 @@ struct Request {
     std::map<std::string, std::string> marker_names;  ///< by the numbers of markers
     std::map<std::string, std::string> region_names;  ///< by the attributes of regions
     std::string layers;                               ///< layers in the file, separated by commas; empty: the only one
+    bool degrees = false;                             ///< the domain is in degrees though its file does not say so
+    std::string projection = "auto";                  ///< the plane for a domain in degrees
     std::map<std::string, std::string> rasters;       ///< their files, by name, with commas between several
     double raster_blend = 0;                          ///< the width of seams between them
     RasterOrder raster_order = RasterOrder::kGiven;
@@ -150,6 +152,8 @@ struct Request {
     MeshOrder order = MeshOrder::kGiven;
     bool ghost_layer = false;
     std::vector<double> open_boundary;  ///< markers
+    double open_from = 0;               ///< shorter boundaries with these markers are land
+    std::string crs = "auto";           ///< the coordinates in files
     std::string depth;                  ///< the raster that points get values of; empty: none
     std::string picture;
     std::string record;

@@ -11,6 +11,7 @@
 #include "distributed/piece_series.hpp"
 #include "distributed/write_distributed.hpp"
 #include "driftmesh/error.hpp"
+#include "io/other_coordinates.hpp"
 #include "job/domain.hpp"
 #include "job/memory.hpp"
 #include "job/rank_report.hpp"
@@ -100,14 +101,15 @@ std::vector<SubdomainCensus> ThreadRun::census() const {
   return all;
 }
 
-void ThreadRun::write_pieces(const std::string& path, bool ghost_layer) const {
+void ThreadRun::write_pieces(const std::string& path, const WriteOptions& options) const {
   const PieceSeries series(order_.plan.decomposition, refinement_->subdomains(), census(), order_.pslg);
   const auto make = [&](Rank k) {
     DistributedPiece piece = series.piece(k);
-    set_depths(order_.rasters, piece.mesh);
+    set_point_data(order_.rasters, piece.mesh);
+    change_coordinates(piece.mesh, coordinates_wanted(piece.mesh, path, options), path);
     return piece;
   };
-  if (ghost_layer)
+  if (options.ghost_layer)
     write_ghosted_series(path, series.size(), make);
   else
     write_series(path, series.size(), sizes_.size(), make);
@@ -118,14 +120,16 @@ DistributedPiece ThreadRun::assemble() const {
   const IdVector<Rank, Exchange*> alone{&assembly};
   exchange_directly(alone);
   DistributedPiece piece = assembly.piece(order_.pslg);
-  set_depths(order_.rasters, piece.mesh);
+  set_point_data(order_.rasters, piece.mesh);
   return piece;
 }
 
 void ThreadRun::write(const Request::Output& files, const Draw& draw, Watch& watch) {
   if (std::ranges::any_of(files.meshes, is_in_pieces))
-    timed(watch, "write",
-          [&] { for_each_in_pieces(files, [&](const std::string& path) { write_pieces(path, files.ghost_layer); }); });
+    timed(watch, "write", [&] {
+      const WriteOptions options = writing_of(files, {}, watch);
+      for_each_in_pieces(files, watch, [&](const std::string& path) { write_pieces(path, options); });
+    });
   if (!needs_whole(files)) return;
   DistributedPiece piece = take_piece(watch);
   write_whole(files, piece.mesh, order_.pslg.holes, draw, watch);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "driftmesh/distributed_piece.hpp"
+#include "driftmesh/files.hpp"
 #include "job/facts_book.hpp"
 #include "job/limits.hpp"
 #include "job/order.hpp"
@@ -43,7 +44,7 @@ class ThreadRun final : public Refined {
   [[nodiscard]] MeshFacts facts();
   [[nodiscard]] std::vector<SubdomainCensus> census() const;
   [[nodiscard]] DistributedPiece assemble() const;
-  void write_pieces(const std::string& path, bool ghost_layer) const;
+  void write_pieces(const std::string& path, const WriteOptions& options) const;
 
   Order order_;
   std::vector<const SizeField*> sizes_;  // that of the order for each thread

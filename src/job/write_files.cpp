@@ -7,9 +7,13 @@ namespace driftmesh::job {
 
 WriteOptions writing_of(const Request::Output& files, const std::vector<Point>& holes, Watch& watch) {
   const std::vector<double>& open = files.open_boundary;
-  return {holes, files.ascii, {open.begin(), open.end()}, files.ghost_layer, [&watch](const std::string& warning) {
-            watch.warn(warning);
-          }};
+  return {.holes = holes,
+          .ascii = files.ascii,
+          .open_boundary = {open.begin(), open.end()},
+          .open_from = files.open_from,
+          .crs = files.crs,
+          .ghost_layer = files.ghost_layer,
+          .warn = [&watch](const std::string& warning) { watch.warn(warning); }};
 }
 
 bool needs_whole(const Request::Output& files) {
@@ -23,7 +27,10 @@ void write_whole(const Request::Output& files, Mesh& mesh, const std::vector<Poi
   if (files.order != MeshOrder::kGiven) timed(watch, "order", [&] { mesh = ordered(std::move(mesh), files.order); });
   timed(watch, "write", [&] {
     for (const std::string& path : files.meshes)
-      if (!is_in_pieces(path)) write_mesh(mesh, path, writing_of(files, holes, watch));
+      if (!is_in_pieces(path)) {
+        watch.writing(path);
+        write_mesh(mesh, path, writing_of(files, holes, watch));
+      }
   });
   if (draw) timed(watch, "plot", [&] { draw(mesh); });
 }

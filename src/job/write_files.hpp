@@ -17,11 +17,14 @@ namespace driftmesh::job {
 /// Whether a file or the picture needs the mesh as a whole.
 [[nodiscard]] bool needs_whole(const Request::Output& files);
 
-/// Calls write(path) for each file that is in pieces.
+/// Calls write(path) for each file that is in pieces, and tells `watch`.
 template <class Write>
-void for_each_in_pieces(const Request::Output& files, const Write& write) {
+void for_each_in_pieces(const Request::Output& files, Watch& watch, const Write& write) {
   for (const std::string& path : files.meshes)
-    if (is_in_pieces(path)) write(path);
+    if (is_in_pieces(path)) {
+      watch.writing(path);
+      write(path);
+    }
 }
 
 /// Writes the other files, and draws.

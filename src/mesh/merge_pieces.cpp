@@ -240,6 +240,12 @@ class Merger {
       take(whole_.names.markers, piece->names.markers);
       take(whole_.names.regions, piece->names.regions);
     }
+    if (pieces_.empty()) return;
+    whole_.attribute_names = pieces_.front()->attribute_names;
+    whole_.coordinates = pieces_.front()->coordinates;
+    for (const Mesh* piece : pieces_)
+      if (piece->attribute_names != whole_.attribute_names || piece->coordinates != whole_.coordinates)
+        faults_.add([] { return "pieces have different names of attributes or different coordinates"; });
   }
 
   std::span<const Mesh* const> pieces_;

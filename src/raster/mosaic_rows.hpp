@@ -27,8 +27,12 @@ class MosaicRows final : public RasterRows {
   explicit MosaicRows(std::vector<RasterTile> tiles);
 
   [[nodiscard]] const RasterFrame& frame() const override { return frame_; }
-  [[nodiscard]] PlaceFunction from_zone(const UtmZone& zone) const override { return any_->from_zone(zone); }
-  [[nodiscard]] PlaceFunction to_zone(const UtmZone& zone) const override { return any_->to_zone(zone); }
+  [[nodiscard]] PlaceFunction from_plane(const Projection& projection) const override {
+    return any_->from_plane(projection);
+  }
+  [[nodiscard]] PlaceFunction to_plane(const Projection& projection) const override {
+    return any_->to_plane(projection);
+  }
   [[nodiscard]] DomainSystem domain_system() const override { return any_->domain_system(); }
   [[nodiscard]] bool in_mercator() const override { return any_->in_mercator(); }
   void read(std::int64_t j, std::int64_t first, std::span<float> values) override;

@@ -7,11 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "base/in_turns.hpp"
 #include "driftmesh/error.hpp"
 #include "raster/mosaic_rows.hpp"
 #include "raster/nearest_values.hpp"
 #include "raster/raster_source.hpp"
 #include "raster/raster_stack.hpp"
+#include "raster/read_tiles.hpp"
 #include "raster/resample.hpp"
 
 namespace driftmesh {
@@ -40,8 +42,7 @@ Box extent_of(const RasterFrame& f) {
            f.first.y + (static_cast<double>(f.rows) - 0.5) * f.dy}};
 }
 
-TiledGrid read_window(RasterRows& rows, const Box& window, std::int64_t beyond = 0) {
-  const RasterFrame& whole = rows.frame();
+FramePart part_of(const RasterFrame& whole, const Box& window, std::int64_t beyond) {
   const auto [left, right] = range_of(window.low.x, window.high.x, whole.first.x, whole.dx, whole.columns, beyond);
   const auto [bottom, top] = range_of(window.low.y, window.high.y, whole.first.y, whole.dy, whole.rows, beyond);
   RasterFrame frame = whole;
@@ -49,6 +50,11 @@ TiledGrid read_window(RasterRows& rows, const Box& window, std::int64_t beyond =
                  whole.first.y + static_cast<double>(bottom) * whole.dy};
   frame.columns = right - left + 1;
   frame.rows = top - bottom + 1;
+  return {left, bottom, frame};
+}
+
+TiledGrid read_window(RasterRows& rows, const Box& window, std::int64_t beyond = 0) {
+  const auto [left, bottom, frame] = part_of(rows.frame(), window, beyond);
   TiledGrid grid(frame);
   std::vector<float> row(static_cast<std::size_t>(frame.columns));
   for (std::int64_t j = frame.rows - 1; j >= 0; --j) {
@@ -74,44 +80,60 @@ double narrowing(const Box& window) {
   return std::max(std::cos((window.low.y + window.high.y) / 2 * std::numbers::pi / 180), 0.01);
 }
 
+/// Where a domain is in the coordinates of a raster.
+struct Placed {
+  PlaceMap to_source;     // null: they are the same
+  Box domain;             // with a margin
+  Box window;             // the same in the raster's coordinates
+  bool has_pole = false;  // these are longitudes and latitudes, and the domain is around a pole
+};
+
 /// Whether longitudes jump in an image of a domain, which is never so wide.
 bool wraps(const Box& window) {
   return window.low.y > -91 && window.high.y < 91 && window.low.x > -370 && window.high.x < 370 &&
          window.high.x - window.low.x > 180;
 }
 
+/// Whether a pole is in an image of a domain, given that longitudes jump there: those of the rim have no gap.
+bool has_pole(const Box& domain, const PlaceMap& to_source) {
+  constexpr double kWidestGap = 90;
+  std::vector<double> longitudes;
+  for_each_on_rim(domain, [&](const Point& p) { longitudes.push_back(to_source(p).x); });
+  std::ranges::sort(longitudes);
+  double widest = longitudes.front() + 360 - longitudes.back();
+  for (std::size_t i = 1; i < longitudes.size(); ++i) widest = std::max(widest, longitudes[i] - longitudes[i - 1]);
+  return widest < kWidestGap;
+}
+
 /// Throws LimitError with the name of the file if its values are absurdly dense.
-TiledGrid resampled(TiledGrid grid, const PlaceMap& to_source, const Box& domain, const std::string& path) {
+TiledGrid resampled(TiledGrid grid, const Placed& at, const Box& domain, const std::string& path) {
   try {
-    return resample(GridRaster(std::move(grid)), to_source, domain);
+    return resample(GridRaster(std::move(grid)), at.to_source, domain, at.has_pole);
   } catch (const LimitError& error) {
     throw LimitError(path + ": " + error.what());
   }
 }
 
-/// Where a domain is in the coordinates of a raster.
-struct Placed {
-  PlaceMap to_source;  // null: they are the same
-  Box domain;          // with a margin
-  Box window;          // the same in the raster's coordinates
-};
-
 Placed placed(const RasterRows& rows, const std::string& path, const RasterPlace& place) {
-  if (!place.zone && rows.in_mercator())
+  if (!place.projection && rows.in_mercator())
     throw InputError(
         {path}, "is in Mercator's projection, whose meters are none, and the domain does not say where it is",
         "give the domain in degrees or in a UTM zone (GeoJSON, .shp), or reproject the raster with gdalwarp");
   Placed found;
-  if (place.zone) found.to_source = rows.from_zone(*place.zone);
+  if (place.projection) found.to_source = rows.from_plane(*place.projection);
   found.domain = widened(place.domain);
   found.window = found.to_source ? image_of(found.domain, found.to_source) : found.domain;
+  if (!found.to_source || !wraps(found.window)) return found;
+  found.has_pole = has_pole(found.domain, found.to_source);
+  if (found.has_pole)
+    (found.window.high.y > 0 ? found.window.high.y : found.window.low.y) = found.window.high.y > 0 ? 90 : -90;
   return found;
 }
 
 [[noreturn]] void refuse_elsewhere(const std::string& path, const RasterPlace& place) {
   throw InputError({path}, "lies elsewhere than the domain",
-                   place.zone ? "its coordinates must be those of the domain or name their system"
-                              : "its coordinates must be those of the domain, whose system is not known");
+                   place.projection ? "its coordinates must be those of the domain or name their system"
+                                    : "its coordinates must be those of the domain, whose system is not known");
 }
 
 [[noreturn]] void refuse_without_values(const std::string& path) {
@@ -119,7 +141,7 @@ Placed placed(const RasterRows& rows, const std::string& path, const RasterPlace
 }
 
 void refuse_wrapped(const std::string& path, const Placed& at) {
-  if (at.to_source && wraps(at.window))
+  if (at.to_source && wraps(at.window) && !at.has_pole)
     throw InputError({path}, "ends within the domain, where longitudes go once around the globe",
                      "give one whose longitudes count on there: gdalwarp -t_srs '+proj=longlat +lon_wrap=180'");
 }
@@ -142,6 +164,10 @@ OpenedRaster opened(std::shared_ptr<const Raster> raster, const std::vector<Cove
 }
 
 // ---- Several rasters ---------------------------------------------------------------------------------------------
+
+std::size_t threads_for(const std::vector<std::string>& paths, const RasterPlace& place) {
+  return can_be_read_at_once(paths) ? place.threads : 1;
+}
 
 /// A raster that overlaps the domain.
 struct NearTile {
@@ -168,23 +194,32 @@ Box common_part(const Box& a, const Box& b) {
           {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y)}};
 }
 
-PlaceMap map_to_zone(const RasterRows& rows, const RasterPlace& place) {
-  return place.zone ? rows.to_zone(*place.zone) : nullptr;
+PlaceMap map_to_plane(const RasterRows& rows, const RasterPlace& place) {
+  return place.projection ? rows.to_plane(*place.projection) : nullptr;
+}
+
+/// None for one that does not overlap the domain.
+std::optional<NearTile> near_tile(const std::string& path, const RasterPlace& place) {
+  const std::unique_ptr<RasterRows> rows = open_raster_rows(path);
+  const Placed at = placed(*rows, path, place);
+  const Box extent = extent_of(rows->frame());
+  if (!at.window.overlaps(extent)) return std::nullopt;
+  refuse_wrapped(path, at);
+  const auto [across, upward] =
+      spacings_in(rows->frame(), common_part(extent, at.window).center(), map_to_plane(*rows, place));
+  NearTile tile{{path, rows->frame()}, std::max(across, upward), {}};
+  if (at.to_source) tile.center = at.to_source(place.domain.center());
+  return tile;
 }
 
 std::vector<NearTile> near_tiles(const std::vector<std::string>& paths, const RasterPlace& place) {
+  // What GDAL may do is set for all threads as long as one file is open.
+  const std::unique_ptr<RasterRows> any = open_raster_rows(paths.front());
+  std::vector<std::optional<NearTile>> found(paths.size());
+  in_turns(paths.size(), threads_for(paths, place), [&](std::size_t k) { found[k] = near_tile(paths[k], place); });
   std::vector<NearTile> tiles;
-  for (const std::string& path : paths) {
-    const std::unique_ptr<RasterRows> rows = open_raster_rows(path);
-    const Placed at = placed(*rows, path, place);
-    const Box extent = extent_of(rows->frame());
-    if (!at.window.overlaps(extent)) continue;
-    refuse_wrapped(path, at);
-    const auto [across, upward] =
-        spacings_in(rows->frame(), common_part(extent, at.window).center(), map_to_zone(*rows, place));
-    NearTile& tile = tiles.emplace_back(NearTile{{path, rows->frame()}, std::max(across, upward), {}});
-    if (at.to_source) tile.center = at.to_source(place.domain.center());
-  }
+  for (std::optional<NearTile>& tile : found)
+    if (tile) tiles.push_back(std::move(*tile));
   if (tiles.empty()) refuse_elsewhere(paths.front(), place);
   return tiles;
 }
@@ -241,12 +276,18 @@ Box reach_of(const TiledGrid& shares) {
 }
 
 /// The layer of a raster; none if it has no value near the domain.
-std::optional<RasterStack::Layer> read_layer(RasterRows& rows, const std::string& path, const RasterPlace& place,
+std::optional<RasterStack::Layer> read_layer(const std::vector<RasterTile>& tiles, const RasterPlace& place,
                                              double blend, std::vector<Cover>& covers) {
+  std::vector<std::string> paths;
+  for (const RasterTile& tile : tiles) paths.push_back(tile.path);
+  const std::string& path = paths.front();
+  MosaicRows rows(tiles);
   const Placed at = placed(rows, path, place);
-  TiledGrid grid = read_window(rows, at.window, 1);
+  TiledGrid grid = can_be_read_at_once(paths)
+                       ? read_tiles(tiles, rows.frame(), part_of(rows.frame(), at.window, 1), place.threads)
+                       : read_window(rows, at.window, 1);
   note_cover(grid, extent_of(rows.frame()), at.to_source, place.points, covers);
-  const PlaceMap from_source = map_to_zone(rows, place);
+  const PlaceMap from_source = map_to_plane(rows, place);
   const RasterFrame frame = grid.frame();
   const Box own = box_of(frame);
   const auto [across, upward] = spacings_in(frame, common_part(own, at.window).center(), from_source);
@@ -255,7 +296,7 @@ std::optional<RasterStack::Layer> read_layer(RasterRows& rows, const std::string
   if (missing == frame.columns * frame.rows) return std::nullopt;
   const Box target = at.to_source ? common_part(at.domain, image_of(own, from_source)) : own;
   const auto in_domain = [&](TiledGrid values) {
-    return at.to_source ? resampled(std::move(values), at.to_source, target, path) : std::move(values);
+    return at.to_source ? resampled(std::move(values), at, target, path) : std::move(values);
   };
   const auto values = std::make_shared<const GridRaster>(in_domain(std::move(grid)));
   if (missing == 0) return RasterStack::Layer{values, nullptr, {}};
@@ -278,7 +319,7 @@ OpenedRaster open_raster(const std::string& path, const RasterPlace& place) {
   const std::int64_t values = grid.frame().columns * grid.frame().rows;
   const double width = grid.frame().dx * (at.to_source ? narrowing(at.window) : 1);
   if (fill_from_nearest(grid, width, grid.frame().dy) == values) refuse_without_values(path);
-  if (at.to_source) grid = resampled(std::move(grid), at.to_source, at.domain, path);
+  if (at.to_source) grid = resampled(std::move(grid), at, at.domain, path);
   return opened(std::make_shared<const GridRaster>(std::move(grid)), covers);
 }
 
@@ -288,10 +329,8 @@ OpenedRaster open_rasters(const std::vector<std::string>& paths, const RasterPla
   if (how.finest_first) std::ranges::stable_sort(tiles, {}, &NearTile::spacing);
   std::vector<Cover> covers(place.points.size(), Cover::kOutside);
   std::vector<RasterStack::Layer> layers;
-  for (std::vector<RasterTile>& mosaic : mosaics_of(tiles)) {
-    const std::string path = mosaic.front().path;
-    MosaicRows rows(std::move(mosaic));
-    if (auto layer = read_layer(rows, path, place, how.blend, covers)) layers.push_back(std::move(*layer));
+  for (const std::vector<RasterTile>& mosaic : mosaics_of(tiles)) {
+    if (auto layer = read_layer(mosaic, place, how.blend, covers)) layers.push_back(std::move(*layer));
     if (!layers.empty() && !layers.back().share) break;  // what is below is not seen
   }
   if (layers.empty()) refuse_without_values(paths.front());

@@ -8,16 +8,17 @@
 #include <vector>
 
 #include "driftmesh/point.hpp"
-#include "gis/transverse_mercator.hpp"
+#include "gis/projection.hpp"
 #include "raster/raster.hpp"
 
 namespace driftmesh {
 
 /// What a raster is opened for.
 struct RasterPlace {
-  Box domain{};                     ///< around the domain
-  std::span<const Point> points{};  ///< points of the domain, which are counted below
-  std::optional<UtmZone> zone{};    ///< their zone; absent: their system is not known, and is that of the raster
+  Box domain{};                            ///< around the domain
+  std::span<const Point> points{};         ///< points of the domain, which are counted below
+  std::optional<Projection> projection{};  ///< their plane; absent: it is not known, and is that of the raster
+  std::size_t threads = 1;                 ///< that may read several files at once
 };
 
 /// A raster, and how well it covers the domain.
@@ -48,8 +49,9 @@ struct Stacking {
 /// Several rasters as one: the first on top, its gaps and what is outside of it filled from the next ones, with seams
 /// where the share of the upper one rises from 0 at its gaps and sides to 1 (see RasterStack). What none has gets the
 /// nearest value of the last one. Neighbors in the order that are on one grid, as tiles are, are one raster without
-/// seams. Files are read one after the other, each open only while its rows are needed; those that do not overlap the
-/// domain are left out. Errors as open_raster: it is enough that one has values in the domain.
+/// seams. Threads read such tiles at once, each only around the domain, if they are GeoTIFFs or ESRI ASCII grids; other
+/// files are read one after the other. Those that do not overlap the domain are left out. Errors as open_raster: it is
+/// enough that one has values in the domain.
 [[nodiscard]] OpenedRaster open_rasters(const std::vector<std::string>& paths, const RasterPlace& place,
                                         const Stacking& how);
 

@@ -7,14 +7,12 @@
 namespace driftmesh {
 namespace {
 
-constexpr std::int64_t kStep = 16;
-
-/// At most the spacings of the raster, as they are around a place.
-double spacing_at(const Point& p, const RasterFrame& frame, const PlaceMap& to_source, double step) {
+/// At most the spacings of the raster, as they are around a place; `jumps`: that of its rows.
+double spacing_at(const Point& p, const RasterFrame& frame, const PlaceMap& to_source, double step, bool jumps) {
   const Point here = to_source(p), east = to_source({p.x + step, p.y}), north = to_source({p.x, p.y + step});
   const double columns = std::hypot(east.x - here.x, north.x - here.x) / frame.dx;  // columns in a step
   const double rows = std::hypot(east.y - here.y, north.y - here.y) / frame.dy;
-  return std::exp2(std::floor(std::log2(step / std::max(columns, rows))));
+  return std::exp2(std::floor(std::log2(step / (jumps ? rows : std::max(columns, rows)))));
 }
 
 RasterFrame frame_over(const Box& box, double spacing) {
@@ -37,25 +35,27 @@ Point between(const Point& a, const Point& b, double t) {
 
 }  // namespace
 
-TiledGrid resample(const GridRaster& source, const PlaceMap& to_source, const Box& box) {
+TiledGrid resample(const GridRaster& source, const PlaceMap& to_source, const Box& box, bool jumps) {
+  const std::int64_t between_asked = jumps ? 1 : 16;
   const double size = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
-  TiledGrid grid(frame_over(box, spacing_at(box.center(), source.frame(), to_source, size / 256)));
+  TiledGrid grid(frame_over(box, spacing_at(box.center(), source.frame(), to_source, size / 256, jumps)));
   const RasterFrame& frame = grid.frame();
-  const std::int64_t across = (frame.columns + kStep - 1) / kStep + 1;
+  const std::int64_t across = (frame.columns + between_asked - 1) / between_asked + 1;
   std::vector<Point> below(static_cast<std::size_t>(across)), above(below);
   const auto map_row = [&](std::int64_t j, std::vector<Point>& places) {
-    for (std::int64_t k = 0; k < across; ++k) places[static_cast<std::size_t>(k)] = to_source(grid.point(k * kStep, j));
+    for (std::int64_t k = 0; k < across; ++k)
+      places[static_cast<std::size_t>(k)] = to_source(grid.point(k * between_asked, j));
   };
   map_row(0, above);
   for (std::int64_t j = 0; j < frame.rows; ++j) {
-    if (j % kStep == 0) {
+    if (j % between_asked == 0) {
       std::swap(below, above);
-      map_row(j + kStep, above);
+      map_row(j + between_asked, above);
     }
-    const double t = static_cast<double>(j % kStep) / kStep;
+    const double t = static_cast<double>(j % between_asked) / between_asked;
     for (std::int64_t i = 0; i < frame.columns; ++i) {
-      const auto k = static_cast<std::size_t>(i / kStep);
-      const double s = static_cast<double>(i % kStep) / kStep;
+      const auto k = static_cast<std::size_t>(i / between_asked);
+      const double s = static_cast<double>(i % between_asked) / between_asked;
       const Point place = between(between(below[k], below[k + 1], s), between(above[k], above[k + 1], s), t);
       grid.set(i, j, static_cast<float>(source.at(place)));
     }
@@ -64,13 +64,8 @@ TiledGrid resample(const GridRaster& source, const PlaceMap& to_source, const Bo
 }
 
 Box image_of(const Box& box, const PlaceMap& map) {
-  constexpr int kParts = 64;
   Box image;
-  for (int k = 0; k <= kParts; ++k) {
-    const Point p = between(box.low, box.high, static_cast<double>(k) / kParts);
-    for (const Point& q : {Point{p.x, box.low.y}, {p.x, box.high.y}, {box.low.x, p.y}, {box.high.x, p.y}})
-      image.extend(map(q));
-  }
+  for_each_on_rim(box, [&](const Point& p) { image.extend(map(p)); });
   const double more = 0.01 * std::max(image.high.x - image.low.x, image.high.y - image.low.y);
   return {{image.low.x - more, image.low.y - more}, {image.high.x + more, image.high.y + more}};
 }

@@ -21,11 +21,17 @@ struct Interfaces {
   void add(const Interfaces& others);
 };
 
+/// What edges must meet.
+struct DelaunayRule {
+  bool applies = true;
+  double slack = 0;  ///< by how much a point may be inside a circumcircle; 0: the test is exact
+};
+
 /// Checks edges between two triangles that are no subsegments: those between subdomains are counted, all others must be
-/// locally Delaunay (exact).
+/// locally Delaunay.
 class EdgeCheck {
  public:
-  EdgeCheck(const NamedMesh& mesh, bool delaunay, std::size_t max_listed)
+  EdgeCheck(const NamedMesh& mesh, const DelaunayRule& delaunay, std::size_t max_listed)
       : names_(mesh), mesh_(mesh.mesh()), delaunay_(delaunay), findings_(max_listed) {}
 
   /// The triangle on one side of an edge and its corner opposite.
@@ -52,7 +58,7 @@ class EdgeCheck {
 
   NamedMesh names_;
   const Mesh& mesh_;
-  bool delaunay_;
+  DelaunayRule delaunay_;
   Findings findings_;
   Interfaces interfaces_;
 };

@@ -37,7 +37,7 @@ void check_orientations(const NamedMesh& mesh, std::size_t begin, std::size_t en
 /// EdgeCheck. An edge is checked from its lower end. Sets the sides of the subsegments.
 class FanCheck {
  public:
-  FanCheck(const NamedMesh& mesh, const CornerTable& corners, Subsegments& subsegments, bool delaunay,
+  FanCheck(const NamedMesh& mesh, const CornerTable& corners, Subsegments& subsegments, const DelaunayRule& delaunay,
            std::size_t max_listed)
       : names_(mesh),
         mesh_(mesh.mesh()),

@@ -24,7 +24,7 @@ struct PieceOrder {
   std::span<const std::int64_t> shared = {};  ///< ascending: numbers of points that other pieces have, too
   const CheckedBounds* bounds = nullptr;      ///< to measure triangles by; null: they are not measured
   bool parts = false;                         ///< whether to find the parts that subsegments separate
-  bool delaunay = true;
+  DelaunayRule delaunay{};
   std::size_t max_listed = 5;
   std::size_t threads = 1;
 };

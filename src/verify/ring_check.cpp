@@ -7,8 +7,8 @@
 
 namespace driftmesh {
 
-RingCheck::RingCheck(const NamedMesh& mesh, const CornerTable& corners, std::vector<char>& marks, bool delaunay,
-                     std::size_t max_listed)
+RingCheck::RingCheck(const NamedMesh& mesh, const CornerTable& corners, std::vector<char>& marks,
+                     const DelaunayRule& delaunay, std::size_t max_listed)
     : names_(mesh),
       mesh_(mesh.mesh()),
       corners_(corners),

@@ -17,7 +17,7 @@ namespace driftmesh {
 class RingCheck {
  public:
   /// `marks`: for each point whether it is left to FanCheck. Points whose triangles form no ring are marked, too.
-  RingCheck(const NamedMesh& mesh, const CornerTable& corners, std::vector<char>& marks, bool delaunay,
+  RingCheck(const NamedMesh& mesh, const CornerTable& corners, std::vector<char>& marks, const DelaunayRule& delaunay,
             std::size_t max_listed);
 
   /// Around points [begin, end). An edge is checked from its end with the lower number. Joins triangles in `parts`, if

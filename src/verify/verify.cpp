@@ -103,10 +103,12 @@ class Verification {
             .shared = shared_,
             .bounds = has_regions_ ? nullptr : &bounds_,
             .parts = has_regions_,
-            .delaunay = options_.check_delaunay,
+            .delaunay = delaunay(),
             .max_listed = options_.max_listed,
             .threads = whole_ ? threads() : 1};
   }
+
+  [[nodiscard]] DelaunayRule delaunay() const { return {options_.check_delaunay, options_.delaunay_slack}; }
 
   template <class Work>
   void for_each_piece(const Work& work) const {
@@ -195,7 +197,7 @@ class Verification {
     subsegments_.emplace(frame_.mesh.points.size(),
                          report_.subsegments_listed ? frame_.mesh.edges : boundary_edges(frame_.mesh, *table_, hubs));
     if (has_regions_) parts_.emplace(parts_of_frame(frame_));
-    FanCheck fans(frame_.named(), *table_, *subsegments_, options_.check_delaunay, options_.max_listed);
+    FanCheck fans(frame_.named(), *table_, *subsegments_, delaunay(), options_.max_listed);
     fans.check(hubs, parts_ ? &*parts_ : nullptr);
     findings_.append(fans.findings());
     findings_.append(fans.edges().findings());

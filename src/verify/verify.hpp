@@ -39,6 +39,8 @@ struct VerifyOptions {
   CourantRule courant{};
   const Raster* depth = nullptr;
   bool strict_step = false;
+  /// By how much a point may be inside the circumcircle of a triangle: for meshes from files that rounded their points.
+  double delaunay_slack = 0;
   std::size_t max_listed = 5;  ///< messages kept of each kind of flaw and of each cause of an exception
   /// Pieces are spread over them, and most of the work on a mesh in one piece. With several, `size` is asked by several
   /// at once. The report does not depend on their number.

@@ -207,6 +207,23 @@ class Rasters(Gis):
 
 
 @needs_gdal
+class Coordinates(Cli):
+    @needs_gdal
+    def test_files_in_any_system_of_the_epsg_come_back(self):
+        shutil.copy(BAY, self.folder / "bay.geojson")
+        self.succeed("mesh", "bay.geojson", "--area", "4M", "--open-boundary", "3", "--crs", "EPSG:5070", "-o", "m.14", "-o", "m.vtu",
+                     "-o", "m.h5")
+        self.assertTrue((self.folder / "m.14").read_text().startswith("driftmesh EPSG:5070 from UTM zone 18N from lonlat\n"))
+        for file in ("m.14", "m.vtu", "m.h5"):
+            self.assertIn("accepted", self.succeed("check", file, "bay.geojson", "--area", "4M"))
+        self.refuse("mesh", "bay.geojson", "--crs", "EPSG:999999", "-o", "n.14", says=["EPSG:999999"])
+        # The code of the zone itself needs nobody.
+        self.succeed("convert", "m.vtu", "zone.14", "--crs", "EPSG:32618")
+        self.succeed("convert", "m.vtu", "plane.14", "--crs", "projected")
+        nodes = [[line.split()[1:3] for line in (self.folder / name).read_text().splitlines()[2:100]] for name in ("zone.14", "plane.14")]
+        self.assertEqual(nodes[0], nodes[1])
+
+
 class Vectors(Gis):
     def features(self, *arguments):
         """What a run says of its input."""

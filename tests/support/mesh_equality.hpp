@@ -19,6 +19,8 @@ inline void check_same_mesh(const Mesh& actual, const Mesh& expected) {
   CHECK(actual.subdomains == expected.subdomains);
   CHECK(actual.ranks == expected.ranks);
   CHECK(actual.names == expected.names);
+  CHECK(actual.attribute_names == expected.attribute_names);
+  CHECK(actual.coordinates == expected.coordinates);
 }
 
 }  // namespace driftmesh::test

@@ -22,7 +22,8 @@ inline Mesh in_subdomains(Mesh mesh, MeshParts keeps) {
   return mesh;
 }
 
-/// The mesh with names of some of its markers and regions, as far as they are in `keeps`.
+/// The mesh with names of its attributes and of some of its markers and regions, and a projection, as far as names are
+/// in `keeps`.
 inline Mesh with_names(Mesh mesh, MeshParts keeps) {
   if ((keeps & kNamedParts) != kNamedParts) return mesh;
   constexpr const char* kNames[] = {"inlet",
@@ -38,6 +39,9 @@ inline Mesh with_names(Mesh mesh, MeshParts keeps) {
     if (next < 5 && edge.marker != 2 && mesh.names.markers.try_emplace(edge.marker, kNames[next]).second) ++next;
   for (const double region : mesh.regions)
     if (next < 7 && mesh.names.regions.try_emplace(region, kNames[next]).second) ++next;
+  for (std::int32_t k = 0; k < mesh.attributes_per_point; ++k)
+    mesh.attribute_names.push_back(k == 0 ? "depth" : "<b> & " + std::to_string(k));
+  mesh.coordinates = "UTM zone 33S from lonlat";
   return mesh;
 }
 

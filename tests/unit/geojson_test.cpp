@@ -16,7 +16,9 @@
 #include "driftmesh/error.hpp"
 #include "geojson/read_input.hpp"
 #include "geojson/rings_to_pslg.hpp"
+#include "gis/coordinates.hpp"
 #include "gis/geographic_system.hpp"
+#include "gis/projection.hpp"
 #include "gis/transverse_mercator.hpp"
 #include "property/cases.hpp"
 #include "support/error_text.hpp"
@@ -108,10 +110,11 @@ TEST_CASE("the projection is conformal on the ellipsoid, and symmetric") {
 }
 
 TEST_CASE("polygons, holes and islands in them become a domain with polygons and markers") {
-  const auto [pslg, projection, warnings] = parse_geojson_input(
+  const auto [pslg, projection, warnings, from_lonlat] = parse_geojson_input(
       "x.json", planar(polygon("[" + kSquare + "," + kHole + "]", R"({"region": 7, "max_area": 0.5})") + "," +
                        polygon("[" + kIsland + "]", R"({"marker": 9})")));
   CHECK(projection == "UTM zone 18N");
+  CHECK_FALSE(from_lonlat);
   CHECK(warnings.empty());
   CHECK(pslg.points.size() == 12);
   CHECK(pslg.segments.size() == 12);
@@ -156,18 +159,106 @@ TEST_CASE("lines give their markers to the coast that they follow, and are const
 }
 
 TEST_CASE("degrees become meters in the zone of their middle") {
-  const auto [pslg, projection, warnings] =
+  const auto [pslg, projection, warnings, from_lonlat] =
       parse_geojson_input("x.geojson", polygon("[[[-76,37],[-75.5,37],[-75.5,38],[-76,37]]]"));
   CHECK(projection == "UTM zone 18N");
+  CHECK(from_lonlat);
+  CHECK(warnings.empty());
   REQUIRE(pslg.points.size() == 3);
   CHECK(pslg.points[0] == utm(-76, 37, {18, true}));
   CHECK(message_of(polygon("[" + kSquare.substr(0, kSquare.size() - 1) + ",[500000,1]]]"))
             .find("no longitude and latitude") != std::string::npos);
-  CHECK(message_of(polygon("[[[0,80],[1,80],[1,85],[0,80]]]")).find("beyond 84 degrees") != std::string::npos);
-  CHECK(message_of(polygon("[[[-60,0],[60,0],[60,1],[-60,0]]]")).find("too many degrees") != std::string::npos);
-  CHECK(message_of(polygon("[[[110,0],[140,0],[-170,0],[-130,1],[110,0]]]")).find("too many degrees") !=
+  CHECK(message_of(polygon("[[[-60,0],[60,0],[60,1],[-60,0]]]")).find("60 degrees from its middle") !=
+        std::string::npos);
+  CHECK(message_of(polygon("[[[110,0],[140,0],[-170,0],[-130,1],[110,0]]]")).find("60 degrees from its middle") !=
         std::string::npos);
   CHECK(message_of(polygon("[[[361,0],[362,0],[362,1],[361,0]]]")).find("no longitude") != std::string::npos);
+}
+
+TEST_CASE("where no zone serves the plane is stereographic, around the middle or a pole") {
+  const auto projection = [](const std::string& ring) {
+    return parse_geojson_input("x.json", polygon("[" + ring + "]")).projection;
+  };
+  CHECK(projection("[[0,80],[1,80],[1,85],[0,80]]") == "stereographic at 1 83");
+  CHECK(projection("[[10,-79],[11,-79],[11,-80.1],[10,-79]]") == "stereographic at 11 -80");
+  CHECK(projection("[[-140,60],[-50,60],[-50,75],[-140,60]]") == "stereographic at -95 68");
+  CHECK(projection("[[-150,75],[120,75],[0,85],[-150,75]]") == "stereographic at 0 90");
+  CHECK(projection("[[-50,40],[40,40],[40,45],[-50,40]]") == "stereographic at -5 43");
+  CHECK(projection("[[141,40],[-145,40],[-145,45],[141,40]]") == "UTM zone 60N");
+  CHECK(projection("[[130,40],[-140,40],[-140,45],[130,40]]") == "stereographic at 175 43");
+  // All around a pole, in whatever way the file says so.
+  const std::string caps[] = {
+      "[[-180,66],[180,66],[180,90],[-180,90],[-180,66]]", "[[0,66],[90,66],[180,66],[-90,66],[0,66]]",
+      "[[-180,66],[-90,66],[0,66],[90,66],[180,66],[180,80],[180,90],[-180,90],[-180,80],[-180,66]]"};
+  for (const std::string& cap : caps) {
+    CAPTURE(cap);
+    const InputFile found = parse_geojson_input("x.json", polygon("[" + cap + "]"));
+    CHECK(found.projection == "stereographic at 0 90");
+    CHECK(found.pslg.points.size() == found.pslg.segments.size());
+    CHECK(found.pslg.points.size() >= 90);
+    for (const Point& p : found.pslg.points) CHECK(std::abs(std::hypot(p.x - 1e7, p.y - 1e7) - 2'718'967) < 1);
+  }
+}
+
+// As for the zones.
+TEST_CASE(
+    "the stereographic projection is conformal on the ellipsoid, true to scale at its center, and has an inverse") {
+  constexpr double a = 6'378'137, f = 1 / 298.257223563, e2 = f * (2 - f), radians = std::numbers::pi / 180;
+  auto random = testing::seeded_generator("stereographic");
+  std::uniform_real_distribution<double> longitudes(-180, 180), latitudes(-90, 90), off(-50, 50);
+  for (int round = 0; round < 500; ++round) {
+    const Point center{std::round(longitudes(random)),
+                       round % 3 == 0 ? (round % 2 == 0 ? 90.0 : -90.0) : std::round(latitudes(random))};
+    const Projection plane{Stereographic(center)};
+    const double longitude = center.x + off(random), latitude = std::clamp(center.y + off(random), -89.9, 89.9);
+    CAPTURE(plane.name());
+    CAPTURE(longitude);
+    CAPTURE(latitude);
+    const auto at = [&](double east, double north) { return plane.plane({longitude + east, latitude + north}); };
+    constexpr double h = 1e-4;
+    const double s = std::sin(latitude * radians), w = std::sqrt(1 - e2 * s * s);
+    const double per_east = a * std::cos(latitude * radians) / w * radians,
+                 per_north = a * (1 - e2) / (w * w * w) * radians;
+    const auto along = [&](double east, double north) {
+      const Point p = at(east, north), q = at(-east, -north);
+      return Point{(p.x - q.x) / 2, (p.y - q.y) / 2};
+    };
+    const Point e = along(h, 0), n = along(0, h);
+    const double scale_east = std::hypot(e.x, e.y) / (h * per_east),
+                 scale_north = std::hypot(n.x, n.y) / (h * per_north);
+    CHECK(scale_east == doctest::Approx(scale_north).epsilon(1e-5));
+    CHECK(scale_east > 1 - 1e-5);
+    CHECK(std::abs(e.x * n.x + e.y * n.y) < 1e-5 * std::hypot(e.x, e.y) * std::hypot(n.x, n.y));
+    CHECK(e.x * n.y - e.y * n.x > 0);
+    const Point back = plane.geographic(at(0, 0));
+    CHECK(std::abs(std::remainder(back.x - longitude, 360)) * std::cos(latitude * radians) < 1e-12);
+    CHECK(std::abs(back.y - latitude) < 1e-12);
+    CHECK(projection_named(plane.name())->name() == plane.name());
+    if (std::abs(center.y) > 89) continue;
+    const Point near = plane.plane({center.x, center.y + 1e-4});
+    CHECK(near.y - 1e7 == doctest::Approx(meridian_arc(center.y + 1e-4) - meridian_arc(center.y)).epsilon(1e-6));
+  }
+  CHECK_FALSE(projection_named("stereographic at 0"));
+  CHECK_FALSE(projection_named("stereographic at 0 91"));
+  CHECK_FALSE(projection_named("stereographic at 0 90 "));
+  CHECK(Projection(Stereographic({5, -90})).plane({77, -90}) == Point{1e7, 1e7});
+}
+
+TEST_CASE("what coordinates are is told and understood") {
+  for (const char* text : {"UTM zone 18N", "UTM zone 18N from lonlat", "lonlat from stereographic at 0 90",
+                           "EPSG:3035 from UTM zone 32N", "EPSG:3035 from UTM zone 32N from lonlat"}) {
+    CAPTURE(text);
+    REQUIRE(coordinates_from(text));
+    CHECK(coordinates_from(text)->text() == text);
+  }
+  for (const char* text : {"", "UTM zone 61N", "lonlat", "from lonlat", "EPSG:x from UTM zone 18N"})
+    CHECK_FALSE(coordinates_from(text));
+  // Codes of the same plane, and of degrees, need nobody else.
+  const Point p{440'000, 4'100'000};
+  CHECK(from_plane("UTM zone 18N", "EPSG:32618", "x")(p) == p);
+  CHECK(from_plane("UTM zone 18N", "EPSG:4326", "x")(p) == from_plane("UTM zone 18N", "lonlat", "x")(p));
+  const Point back = to_plane("UTM zone 18N", "lonlat", "x")(from_plane("UTM zone 18N", "lonlat", "x")(p));
+  CHECK(std::hypot(back.x - p.x, back.y - p.y) < 1e-8);
 }
 
 namespace {
