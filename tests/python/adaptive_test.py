@@ -1,0 +1,132 @@
+"""Meshes that follow a solution, with numpy."""
+
+import threading
+import unittest
+
+import driftmesh
+import numpy as np
+
+PLATE = driftmesh.generate("rectangle-hole")
+
+
+def areas(mesh):
+    a, b, c = mesh.points[mesh.triangles].transpose(1, 0, 2)
+    return ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
+
+
+def front(mesh, at):
+    return 0.01 + 0.3 * np.abs(mesh.points[:, 0] - at)
+
+
+class Adaptive(unittest.TestCase):
+    def test_follows_lengths(self):
+        plate = driftmesh.AdaptiveMesh(PLATE, min_angle=25, max_area=0.01, threads=2)
+        for at in (0.2, 0.3, 0.4):
+            before = plate.mesh
+            lengths = front(before, at)
+            plate.adapt(lengths)
+            mesh = plate.mesh
+            size = driftmesh.size_on_mesh(before, lengths, gradation=0.2)
+            report = driftmesh.check(mesh, PLATE, min_angle=25, max_area=0.01, size=lambda x, y: size(x, y), size_resolution=1)
+            self.assertTrue(report, report.verdict)
+            stayed = plate.stayed_points
+            np.testing.assert_array_equal(mesh.points[stayed >= 0], before.points[stayed[stayed >= 0]])
+            self.assertEqual(len(plate.stayed_triangles), len(mesh.triangles))
+        self.assertEqual(plate.report["generation"], 3)
+
+    def test_follows_functions(self):
+        plate = driftmesh.AdaptiveMesh(PLATE, size_resolution=100)
+        size = lambda x, y: 0.02 + 0.2 * abs(y - 0.5)
+        plate.adapt(size)
+        self.assertTrue(driftmesh.check(plate.mesh, PLATE, size=size, size_resolution=100))
+        coarse = len(plate.mesh.triangles)
+        plate.adapt(driftmesh.size_on_mesh(plate.mesh, np.full(len(plate.mesh.points), 0.01)))
+        self.assertGreater(len(plate.mesh.triangles), coarse)
+
+    def test_fields(self):
+        plate = driftmesh.AdaptiveMesh(PLATE, max_area=0.002)
+        mesh, random = plate.mesh, np.random.default_rng(5)
+        count = len(mesh.triangles)
+        plate.attach("velocity", mesh.points * [1, -2])
+        plate.attach("mass", random.uniform(1, 2, count), where="triangles", transfer="conserve")
+        plate.attach("tensor", random.uniform(1, 2, (count, 3, 2)), where="corners", transfer="conserve")
+        self.assertEqual(plate.field("tensor").shape, (count, 3, 2))
+        masses = [areas(mesh) @ plate.field("mass"), *(areas(mesh) @ plate.field("tensor").mean(axis=1))]
+        plate.adapt(front(mesh, 0.4))
+        mesh = plate.mesh
+        np.testing.assert_allclose(plate.field("velocity"), mesh.points * [1, -2], atol=1e-12)
+        np.testing.assert_allclose([areas(mesh) @ plate.field("mass"), *(areas(mesh) @ plate.field("tensor").mean(axis=1))],
+                                   masses, rtol=1e-12)
+        plate.detach("mass")
+        with self.assertRaisesRegex(driftmesh.Error, "no field 'mass'"):
+            plate.field("mass")
+
+    def test_lengths_from_error(self):
+        plate = driftmesh.AdaptiveMesh(PLATE, max_area=0.002)
+        indicators = areas(plate.mesh)
+        target = np.linalg.norm(indicators) / 4
+        plate.adapt(plate.lengths_from_error(indicators, target, order=1))
+        self.assertLess(np.linalg.norm(areas(plate.mesh)), target)
+
+    def test_older_arrays_stay(self):
+        plate = driftmesh.AdaptiveMesh(PLATE, size_resolution=100)
+        points, copy = plate.mesh.points, plate.mesh.points.copy()
+        plate.adapt(np.full(len(points), 0.02))
+        np.testing.assert_array_equal(points, copy)
+
+    def test_wrong_use(self):
+        plate = driftmesh.AdaptiveMesh(PLATE, max_area=0.01, size_resolution=100)
+        points, count = len(plate.mesh.points), len(plate.mesh.triangles)
+        for lengths, text in ((np.ones(3), "3 lengths for"), (np.zeros(points), "point 0"), (np.full(points, np.nan), "point 0")):
+            with self.assertRaisesRegex(driftmesh.Error, text):
+                plate.adapt(lengths)
+        with self.assertRaisesRegex(ValueError, "shape"):
+            plate.attach("u", np.ones((points + 1, 2)))
+        with self.assertRaisesRegex(ValueError, "3"):
+            plate.attach("u", np.ones(count), where="corners", transfer="conserve")
+        with self.assertRaisesRegex(driftmesh.Error, "not interpolated"):
+            plate.attach("u", np.ones(count), where="triangles")
+        with self.assertRaisesRegex(ValueError, "where"):
+            plate.attach("u", np.ones(count), where="edges")
+        with self.assertRaisesRegex(TypeError, "max_aera"):
+            driftmesh.AdaptiveMesh(PLATE, max_aera=1)
+        with self.assertRaisesRegex(driftmesh.Error, "gradation"):
+            driftmesh.AdaptiveMesh(PLATE, gradation=-1)
+
+    def test_not_within_itself(self):
+        plate = driftmesh.AdaptiveMesh(PLATE, max_area=0.01, size_resolution=100)
+        before = plate.mesh.triangles.copy()
+        with self.assertRaisesRegex(driftmesh.Error, "at work"):
+            plate.adapt(lambda x, y: plate.adapt(np.ones(3)) or 0.1)
+        with self.assertRaises(ZeroDivisionError):
+            plate.adapt(lambda x, y: 1 / 0)
+        np.testing.assert_array_equal(plate.mesh.triangles, before)
+        plate.adapt(lambda x, y: 0.05)
+        self.assertEqual(plate.report["generation"], 1)
+
+    def test_one_thread_at_a_time(self):
+        plate = driftmesh.AdaptiveMesh(PLATE, max_area=0.01, size_resolution=100)
+        begun, raised = threading.Event(), []
+
+        def use():
+            begun.wait()
+            try:
+                plate.mesh
+            except driftmesh.Error as error:
+                raised.append(str(error))
+
+        other = threading.Thread(target=use)
+        other.start()
+
+        def size(x, y):
+            if not begun.is_set():
+                begun.set()
+                other.join()
+            return 0.1
+
+        plate.adapt(size)
+        self.assertEqual(len(raised), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
