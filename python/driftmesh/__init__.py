@@ -29,7 +29,7 @@ _OF_RANKS = ["DistributedPiece", "GhostedPiece", "SimulatedRun", "add_ghost_laye
 __all__ = ["AdaptiveMesh", "Cancelled", "CheckReport", "Decomposition", "Error", "FileError", "InputError", "InputWarning", "LimitError", "Load",
            "Mesh", "Progress", "ProgressLine", "Pslg", "SizeField", "SizeRule", "__version__", "check", "convert", "cut_domain", "from_polygons", "generate",
            "generator_names", "mesh", "option_table", "outline", "plot", "read", "read_decomposition", "read_input", "read_mesh",
-           "read_poly", "size_on_mesh", "sizes", "to_meshio"]
+           "read_poly", "size_on_mesh", "to_meshio"]
 if _importlib_util.find_spec("._ranks", __name__):
     __all__ += _OF_RANKS
 

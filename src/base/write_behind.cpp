@@ -12,16 +12,16 @@ namespace {
 
 constexpr std::uint64_t kEnough = std::uint64_t{16} << 20;  // for a disk to take about as long as for a long seek
 
-std::atomic<std::uint64_t> written{0};
+std::atomic<std::uint64_t> all_bytes{0};
 
 }  // namespace
 
 std::uint64_t bytes_written() noexcept {
-  return written.load(std::memory_order_relaxed);
+  return all_bytes.load(std::memory_order_relaxed);
 }
 
 void WriteBehind::wrote(int file, std::uint64_t place, std::size_t count) noexcept {
-  written.fetch_add(count, std::memory_order_relaxed);
+  all_bytes.fetch_add(count, std::memory_order_relaxed);
   if (place != end_) begin_ = place;
   end_ = place + count;
   if (end_ - begin_ < kEnough) return;

@@ -8,6 +8,7 @@
 
 #include "base/standard_streams.hpp"
 #include "driftmesh/error.hpp"
+#include "picture/ascii_text.hpp"
 #include "picture/plot.hpp"
 
 #ifdef __SANITIZE_ADDRESS__
@@ -25,6 +26,15 @@ extern "C" const char* __lsan_default_options() {
 
 namespace driftmesh {
 namespace {
+
+/// What cairo can show of a text. Built without fonts of the system, it has letters of its own.
+std::string shown_text(const std::string& text) {
+#if defined(CAIRO_HAS_FT_FONT) || defined(CAIRO_HAS_QUARTZ_FONT) || defined(CAIRO_HAS_WIN32_FONT)
+  return text;
+#else
+  return ascii_text(text);
+#endif
+}
 
 /// ".png", ".svg" or ".pdf"; anything else if it is not a picture.
 std::string format_of(const std::string& path) {
@@ -104,10 +114,11 @@ void Canvas::choose_font(const TextStyle& style) {
 
 void Canvas::text(const Point& at, const std::string& characters, const TextStyle& style) {
   const double width = text_width(characters, style);
+  const std::string shown = shown_text(characters);
   const double shift = style.align == TextAlign::kLeft ? 0 : style.align == TextAlign::kCenter ? width / 2 : width;
   if (style.halo) {
     cairo_move_to(cairo_, at.x - shift, at.y);
-    cairo_text_path(cairo_, characters.c_str());
+    cairo_text_path(cairo_, shown.c_str());
     set_color(kPaper, 0.85);
     cairo_set_line_width(cairo_, 0.4 * style.size);
     cairo_set_line_join(cairo_, CAIRO_LINE_JOIN_ROUND);
@@ -115,14 +126,14 @@ void Canvas::text(const Point& at, const std::string& characters, const TextStyl
   }
   set_color(style.color);
   cairo_move_to(cairo_, at.x - shift, at.y);
-  cairo_show_text(cairo_, characters.c_str());
+  cairo_show_text(cairo_, shown.c_str());
   cairo_new_path(cairo_);
 }
 
 double Canvas::text_width(const std::string& characters, const TextStyle& style) {
   choose_font(style);
   cairo_text_extents_t extents;
-  cairo_text_extents(cairo_, characters.c_str(), &extents);
+  cairo_text_extents(cairo_, shown_text(characters).c_str(), &extents);
   return extents.x_advance;
 }
 

@@ -9,6 +9,7 @@
 
 #include "driftmesh/error.hpp"
 #include "io/xml_scanner.hpp"
+#include "picture/ascii_text.hpp"
 #include "picture/plot.hpp"
 #include "picture/plot_color.hpp"
 #include "picture/plot_raster.hpp"
@@ -308,4 +309,12 @@ TEST_CASE("a picture that cannot be written is an error and leaves nothing behin
   CHECK_THROWS_AS(plot_mesh(mesh, folder.path() / "a.png", {.width = 1000000}), InputError);
   CHECK_THROWS_AS(plot_mesh(mesh, folder.path() / "missing" / "a.svg", {}), FileError);
   CHECK(std::filesystem::is_empty(folder.path()));
+}
+
+TEST_CASE("texts of pictures are spelled in ASCII for letters that have no more") {
+  CHECK(ascii_text("plain 20.5") == "plain 20.5");
+  CHECK(ascii_text("20\u00b0 to 2\u00b710\u207b\u00b3") == "20 deg to 2*10^-3");
+  CHECK(ascii_text("10\u00b9\u2070, 10\u2074") == "10^10, 10^4");
+  CHECK(ascii_text("S\u00f8r \u4e2d.") == "S?r ?.");
+  CHECK(ascii_text("").empty());
 }
