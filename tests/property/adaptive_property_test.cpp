@@ -116,7 +116,7 @@ void check_all_found(const Mesh& before, const AdaptiveMesh& adaptive) {
 }  // namespace
 
 TEST_CASE("random domains follow random lengths over twenty generations") {
-  for (int seed = 1; seed <= 6 / kFewer + 1; ++seed) {
+  for (int seed = 1; seed <= 4 / kFewer + 1; ++seed) {
     CAPTURE(seed);
     Random random(seed);
     const auto shape = oracles::make_random_shape(seed);
@@ -221,7 +221,7 @@ Summary summary_of(const Mesh& mesh, FieldPlace place, std::span<const double> v
 }  // namespace
 
 TEST_CASE("conserving transfer keeps integrals, bounds and constants") {
-  for (int seed = 1; seed <= 8 / kFewer; ++seed) {
+  for (int seed = 1; seed <= 5 / kFewer + 1; ++seed) {
     CAPTURE(seed);
     Random random(seed);
     const Pslg input =
@@ -402,7 +402,7 @@ TEST_CASE("a front that moves to and fro leaves no trace") {
     const std::vector<double> lengths = at_points(before, size(g));
     mesh.adapt(lengths);
     mended += mesh.report().mended;
-    if (g % 5 != 0) continue;
+    if (g != 15 && g != 20) continue;
     CAPTURE(g);
     const auto judge = size_on_mesh(before, lengths, 0.2);
     const CheckReport report = check(mesh.mesh(), square(), judged_by({}, *judge));
