@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""What it costs that a mesh follows a front: a ring in the unit square, a band of short edges that widens from one generation to the next,
+with a field at points that is carried along. Each generation is checked and compared with a mesh made anew by the same lengths;
+prints a table in Markdown (docs/results/adaptive.md). Processor time on one thread. Needs the Python package on PYTHONPATH.
+
+usage: adaptive.py [--generations N] [--every N] [--length L]... [--program DRIFTMESH] [--update]
+"""
+
+import argparse
+import pathlib
+import sys
+import time
+
+PROJECT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.append(str(PROJECT / "scripts" / "tables"))
+import results  # noqa: E402
+from table import Table  # noqa: E402
+
+WIDTH, GROWTH, RADIUS, STEP = 0.06, 0.2, 0.15, 0.003
+
+
+def ring(points, shortest, generation):
+    """Lengths: short in a band around a circle, growing beyond it."""
+    away = np.abs(np.hypot(*(points - 0.5).T) - RADIUS - STEP * generation) - WIDTH / 2
+    return shortest + GROWTH * np.maximum(0, away)
+
+
+def square():
+    return driftmesh.Pslg([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1], [1, 2], [2, 3], [3, 0]])
+
+
+def timed(work):
+    start = time.process_time()
+    result = work()
+    return result, time.process_time() - start
+
+
+class Row:
+    """Sums over the generations of a mesh with this shortest length."""
+
+    def __init__(self, shortest, transfer, options):
+        self.shortest, self.options = shortest, options
+        self.triangles = self.new = self.seconds = self.anew = 0
+        self.compared, self.density, self.angle = 0, [], 180.0
+        start = driftmesh.mesh(square(), max_area=1e-3)
+        for _ in range(6):  # until the ring is found
+            size = driftmesh.size_on_mesh(start, ring(start.points, shortest, 0), gradation=GROWTH)
+            start = driftmesh.mesh(square(), size=size, size_resolution=1, threads=1)
+        self.mesh = driftmesh.AdaptiveMesh(square(), size=size, size_resolution=1, threads=1, gradation=GROWTH)
+        self.mesh.attach("u", self.mesh.mesh.points[:, 0], transfer=transfer)
+        for generation in range(1, options.generations + 1):
+            self.advance(generation)
+
+    def advance(self, generation):
+        before = self.mesh.mesh
+        lengths = ring(before.points, self.shortest, generation)
+        self.seconds += timed(lambda: self.mesh.adapt(lengths))[1]
+        stayed = self.mesh.stayed_triangles
+        self.triangles += len(stayed)
+        self.new += np.count_nonzero(stayed < 0)
+        if generation % self.options.every:
+            return
+        after = self.mesh.mesh
+        size = driftmesh.size_on_mesh(before, lengths, gradation=GROWTH)
+        report = driftmesh.check(after, square(), size=lambda x, y: size(x, y), size_resolution=1)
+        if not report:
+            raise SystemExit(f"generation {generation}: {report.text}{report.verdict}")
+        self.angle = min(self.angle, report.smallest_angle)
+        anew, seconds = timed(lambda: driftmesh.mesh(square(), threads=1, size_resolution=1, size=driftmesh.size_on_mesh(
+            before, lengths, gradation=GROWTH)))
+        self.compared += len(anew.triangles)
+        self.anew += seconds
+        self.density.append(len(after.triangles) / len(anew.triangles))
+
+    def cells(self):
+        each, anew = self.seconds / self.triangles * 1e6, self.anew / self.compared * 1e6
+        generations = self.options.generations
+        return [self.triangles // generations, f"{self.new / self.triangles:.3f}", f"{each:.2f}", f"{anew:.2f}", f"{each / anew:.2f}",
+                f"{max(self.density):.3f}", f"{self.angle:.1f}"]
+
+
+def measured(options):
+    table = Table("adaptive", f"A ring that widens, {options.generations} generations",
+                  ["shortest", "transfer", "triangles", "share that is new", "us for each", "made anew", "ratio", "denser at most", "smallest angle"],
+                  "Processor time on one thread, in microseconds for each triangle of a generation, with transfer of one field; made anew: by "
+                  f"`size_on_mesh` and `mesh` (`size_resolution=1`). Every {options.every}th generation is checked, and compared with the mesh made anew.")
+    for shortest in options.length or [0.002, 0.001]:
+        for transfer in ("interpolate", "conserve"):
+            table.add(shortest, transfer, *Row(shortest, transfer, options).cells())
+    return table
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\nusage")[0])
+    parser.add_argument("--generations", type=int, default=20)
+    parser.add_argument("--every", type=int, default=10, help="check and compare only every N-th generation")
+    parser.add_argument("--length", type=float, action="append", help="shortest length in the ring; 0.0005 makes about 2 million triangles")
+    parser.add_argument("--program", default=PROJECT / "build/release/driftmesh", help="says which compiler it was")
+    results.add_option(parser)
+    options = parser.parse_args()
+    global driftmesh, np  # only to measure: --help does without
+    import driftmesh
+    import numpy as np
+    results.show("bench/adaptive.py", map(measured, [options]), options)
+
+
+if __name__ == "__main__":
+    main()
