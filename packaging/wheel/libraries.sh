@@ -44,8 +44,9 @@ autotools cairo src --disable-xlib --disable-xcb --disable-fc --disable-ft --dis
   --disable-ps --disable-trace --disable-gtk-doc --enable-png --enable-pdf --enable-svg
 # Debian's changes make a shared library of it; these are all of its sources.
 sources metis
-(cd metis && mkdir -p objects && cd objects && for source in ../GKlib/*.c ../libmetis/*.c; do
-  gcc $CFLAGS -w -DNDEBUG -DNDEBUG2 -D_FILE_OFFSET_BITS=64 -DHAVE_EXECINFO_H -DHAVE_GETLINE -I../GKlib -I../include -I../libmetis -c "$source"
-done && ar rcs "$prefix/lib/libmetis.a" ./*.o && cp ../include/metis.h "$prefix/include/")
+(cd metis && mkdir -p objects && for source in GKlib/*.c libmetis/*.c; do
+  gcc $CFLAGS -w -DNDEBUG -DNDEBUG2 -D_FILE_OFFSET_BITS=64 -DHAVE_EXECINFO_H -DHAVE_GETLINE -IGKlib -Iinclude -Ilibmetis -c "$source" \
+    -o "objects/${source//\//-}.o"
+done && ar rcs "$prefix/lib/libmetis.a" objects/*.o && cp include/metis.h "$prefix/include/")
 autotools hdf5 src --disable-hl --disable-tests --disable-tools --enable-build-mode=production --with-zlib="$prefix" --without-szlib \
   --disable-ros3-vfd

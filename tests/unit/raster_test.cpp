@@ -169,7 +169,8 @@ TEST_CASE("a raster with an absurd spacing is refused, not resampled") {
   for (const char* spacing : {"1e-9", "1e-12", "1e-300"}) {
     const std::string file =
         written(folder, "ncols 1\nnrows 1\nxllcenter -76\nyllcenter 37.5\ncellsize " + std::string(spacing) + "\n7\n");
-    CHECK_THROWS_WITH_AS(open_raster(file, {Box::of(points), points, zone}), doctest::Contains(file.c_str()), Error);
+    CHECK_THROWS_WITH_AS(open_raster(file, {Box::of(points), points, Projection(zone)}),
+                         doctest::Contains(file.c_str()), Error);
   }
 }
 
@@ -185,7 +186,7 @@ TEST_CASE("a raster in degrees is resampled to the domain's zone") {
     const UtmZone zone{18, true};
     const std::vector<Point> points{utm(-76.5, 37, zone), utm(-75.5, 37, zone), utm(-75.5, 38, zone),
                                     utm(-76.5, 38, zone)};
-    const OpenedRaster opened = open_raster(written(folder, text), {Box::of(points), points, zone});
+    const OpenedRaster opened = open_raster(written(folder, text), {Box::of(points), points, Projection(zone)});
     CHECK(opened.outside == 0);
     CHECK(opened.without == 0);
     CHECK(dynamic_cast<const GridRaster&>(*opened.raster).frame().dx == 512);
