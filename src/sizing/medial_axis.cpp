@@ -294,8 +294,10 @@ class Finder {
       from = std::max(from, enters);
       to = std::min(to, leaves);
     };
-    clip(square.low.x, square.high.x, middle.x, tangent.x);
-    clip(square.low.y, square.high.y, middle.y, tangent.y);
+    // A bit wider, so that rounding does not put an axis between two squares into neither.
+    const double slack = kTolerance * offset_from(s, middle).distance;
+    clip(square.low.x - slack, square.high.x + slack, middle.x, tangent.x);
+    clip(square.low.y - slack, square.high.y + slack, middle.y, tangent.y);
     if (!(from <= to)) return;
     Point a = along(middle, from, tangent), b = along(middle, to, tangent);
     if (!balance(s, t, a) || !balance(s, t, b)) return;

@@ -188,6 +188,24 @@ TEST_CASE("widths are those of the balls that fit into an outline") {
   CHECK(beyond <= all / 1000);  // where it depends on little whether a piece of the axis counts
 }
 
+TEST_CASE("a channel along the middle of the box has its width, although its axis is between squares") {
+  Random random = seeded_generator("channels along the middle");
+  for (std::int64_t c = 0; c < case_count(300); ++c) {
+    CAPTURE(c);
+    const int count = static_cast<int>(5 + random() % 60);
+    const double step = uniform(random, 0.3, 3), half = uniform(random, 0.3, 0.7), end = count * step;
+    std::vector<Point> points, back;
+    for (int i = 0; i <= count; ++i) {
+      points.push_back({i * step, -half});
+      back.push_back({i * step, half});
+    }
+    points.insert(points.end(), back.rbegin(), back.rend());
+    const LocalWidth width(ring_of(points));
+    for (double x = half; x < end - half; x += half / 2)
+      CHECK(width.at({x, uniform(random, -half, half)}) == doctest::Approx(2 * half).epsilon(0.1));
+  }
+}
+
 TEST_CASE("in a straight channel the width is the distance of its sides, wherever and however it lies") {
   Random random = seeded_generator("straight channels");
   for (std::int64_t c = 0; c < case_count(200); ++c) {
