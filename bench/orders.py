@@ -11,11 +11,6 @@ import statistics
 import sys
 import time
 
-import driftmesh
-import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.linalg import splu
-
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.append(str(PROJECT / "scripts" / "tables"))
 import results  # noqa: E402
@@ -24,6 +19,8 @@ from table import Table  # noqa: E402
 
 def matrix_of(mesh):
     """Stiffness and mass of linear elements, so that it is positive definite."""
+    import numpy as np
+    from scipy.sparse import coo_matrix
     corners = mesh.triangles
     side = mesh.points[corners[:, [2, 0, 1]]] - mesh.points[corners[:, [1, 2, 0]]]
     area = (side[:, 0, 0] * side[:, 1, 1] - side[:, 0, 1] * side[:, 1, 0]) / 2
@@ -39,6 +36,9 @@ def seconds(work):
 
 
 def measured(options):
+    import driftmesh
+    import numpy as np
+    from scipy.sparse.linalg import splu
     table = Table("orders", "Orders of a bay's points", ["points", "--order", "ordering", "bandwidth", "profile", "product", "factorization"],
                   "Profile: mean distance of the first entry of a row from the diagonal. Ordering: processor time, as a part of that of "
                   "meshing in one piece. Product with a vector and factorization by SuperLU (which orders columns itself): "

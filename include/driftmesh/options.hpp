@@ -86,6 +86,9 @@ struct MeshOptions {
   /// often, at points of the domain only; on many ranks it must be the same function on all of
   /// them. Exceptions it throws end the work and propagate.
   std::function<double(const Point&)> size{};
+  /// Layers of triangles across every channel of the domain; 0: any number. Triangles get small enough for that,
+  /// however narrow the channel is. See docs/size-expressions.md.
+  std::int32_t across = 0;
   /// `size` is also looked up on a grid of this many squares along the longer side of the domain, and around its lowest
   /// points where it is steep: no feature that fills a square is missed. Triangles too small for the grid are judged by
   /// corners and centroid alone. The function is called about once for each point of the grid, up to 4 million times by

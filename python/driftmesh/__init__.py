@@ -10,6 +10,7 @@
 Lengths and areas are in the units of the input, angles in degrees.
 """
 
+import importlib as _importlib
 import importlib.util as _importlib_util
 import pathlib as _pathlib
 import tempfile as _tempfile
@@ -21,7 +22,6 @@ from ._native import (AdaptiveMesh, CheckReport, Decomposition, Load, Mesh, Prog
 from ._native import holds_input as _holds_input
 from ._polygons import from_polygons
 from ._progress import ProgressLine
-from . import sizes
 
 # What needs MPI is a module of its own, loaded when one of these is first asked for; a package that was built without MPI lacks it.
 _OF_RANKS = ["DistributedPiece", "GhostedPiece", "SimulatedRun", "add_ghost_layer", "mesh_distributed", "simulate", "write_distributed"]
@@ -35,6 +35,8 @@ if _importlib_util.find_spec("._ranks", __name__):
 
 
 def __getattr__(name):
+    if name == "sizes":    # it imports numpy
+        return _importlib.import_module(".sizes", __name__)
     if name not in _OF_RANKS:
         raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
     try:

@@ -1,14 +1,12 @@
 """Meshes as those of other programs. Each is imported where it is asked for."""
 
-import numpy as np
-
-
 def to_meshio(mesh):
     """A meshio.Mesh: triangles, then the constrained edges as lines.
 
     Cell data `marker` and `region` have 0 for the other kind of cell; point data are `marker` and the attributes.
     """
     import meshio
+    import numpy as np
     lines, triangles = mesh.edges, mesh.triangles
     regions = mesh.regions if len(mesh.regions) else np.zeros(len(triangles))
     cells = [("triangle", np.array(triangles)), ("line", np.array(lines))]
@@ -23,6 +21,8 @@ def to_meshio(mesh):
 def to_dolfinx(mesh, communicator=None):
     """A mesh of dolfinx on one process, with tags of cells (regions; None without) and of facets (markers)."""
     from types import SimpleNamespace
+
+    import numpy as np
 
     from .dolfinx import to_dolfinx as from_piece
     if communicator is None:
@@ -39,6 +39,7 @@ def to_ugrid(mesh, path, *, geographic=False):
     geographic: points are longitudes and latitudes, in degrees.
     """
     import netCDF4
+    import numpy as np
     units = [("longitude", "degrees_east"), ("latitude", "degrees_north")] if geographic else \
         [("projection_x_coordinate", "m"), ("projection_y_coordinate", "m")]
     with netCDF4.Dataset(path, "w") as file:

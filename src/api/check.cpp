@@ -76,6 +76,7 @@ CheckReport check_against(const Mesh& mesh, const Pslg* input, const MeshOptions
   SizeSource source;
   VerifyOptions asked{.min_angle = request.bounds.angle,
                       .plain = request.bounds,
+                      .across = {request.sizing.across, 0},
                       .given = input,
                       .moved = request.input.snap + request.input.simplify,
                       .holes = request.input.holes,

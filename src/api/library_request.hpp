@@ -22,6 +22,7 @@ void visit_options(Options&& o, job::Request& r, const Visit& visit) {
   visit("bounds.area", "max_area", o.max_area, r.bounds.area);
   visit("bounds.triangles", "triangles", o.triangles, r.bounds.triangles);
   visit("bounds.region-areas", "region_areas", o.region_areas, r.bounds.region_areas);
+  visit("sizing.across", "across", o.across, r.sizing.across);
   visit("sizing.resolution", "size_resolution", o.size_resolution, r.sizing.resolution);
   visit("sizing.courant-step", "courant.step", o.courant.step, r.sizing.courant_step);
   visit("sizing.courant", "courant.bound", o.courant.bound, r.sizing.courant);

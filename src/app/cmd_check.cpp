@@ -32,6 +32,7 @@
 #include "job/rasters.hpp"
 #include "mesh/digest.hpp"
 #include "mesh/settle_points.hpp"
+#include "sizing/across.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
 
@@ -154,11 +155,11 @@ VerifyReport read_and_verify(CheckOptions& options, const job::Request& request)
   const std::optional<InputFile> file = read_and_repair(options, asked);
   if (file) mesh.settle_on(file->pslg.points);
   const Pslg* const input = file ? &file->pslg : nullptr;
-  const bool sized = !request.sizing.expression.empty() || !request.sizing.background.empty() ||
-                     request.sizing.longest > 0 || request.sizing.courant_step > 0;
+  const bool sized = request.sizing.varies() || request.sizing.longest > 0 || request.sizing.courant_step > 0;
   SizingOptions sizes = input != nullptr ? job::sizing_of(request.sizing, *input)
                                          : job::sizing_of(request.sizing, sized ? mesh.box() : Box{});
   sizes.exact = true;
+  sizes.across = 0;  // layers are counted, whatever they take
   job::Rasters rasters = job::rasters_of(request, file ? file->projection : "");
   open_all(rasters, sizes.domain, {});
   options.depth = rasters.depths();
@@ -170,6 +171,7 @@ VerifyReport read_and_verify(CheckOptions& options, const job::Request& request)
   options.verify.size = options.size.get();
   // Lengths whose growth is limited cannot fall much between the points that are looked up anyway.
   if (!request.sizing.expression.empty() && request.sizing.gradation == 0) options.verify.size_spacing = sizes.spacing;
+  options.verify.across = {request.sizing.across, width_for(request.sizing.shortest, request.sizing.across)};
   options.verify.size_is_compiled = !request.sizing.expression.empty() || !request.sizing.background.empty();
   VerifyReport report = mesh.verify(input, options.verify);
   if (!options.quiet) print(fmt::format("digest         {:016x}\n", mesh.digest()));

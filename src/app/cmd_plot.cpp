@@ -114,10 +114,9 @@ void draw_asked(PlotCommand& command) {
   if (command.plot.title.empty()) command.plot.title = title_of(name.string());
   command.plot.name = name.string();
   require_lengths(request.sizing.expression);
-  const job::Request::Sizing& sizing = request.sizing;
-  if (!sizing.expression.empty() || !sizing.background.empty() || !sizing.tree.empty())
-    return draw_sizes(command, request);
-  if (request.input.contour.empty()) throw cli::UsageError("pictures of sizes need --size, --size-mesh or --size-tree");
+  if (request.sizing.varies()) return draw_sizes(command, request);
+  if (request.input.contour.empty())
+    throw cli::UsageError("pictures of sizes need --size, --size-mesh, --across or --size-tree");
   FileRegistry files;
   job::register_reads(request, job::kPlot, files);
   register_picture(files, command.output, "--output");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <span>
 
 #include "app/summary.hpp"
 #include "base/words.hpp"
@@ -30,6 +31,22 @@ std::int64_t repair_count(const RepairReport& r) {
   return count;
 }
 
+/// The narrowest ones.
+void add_creeks(const RunRecord& run, Text out) {
+  constexpr std::size_t kMost = 5;
+  if (run.creeks.empty()) return;
+  const std::size_t listed = run.creeks.size() <= kMost + 1 ? run.creeks.size() : kMost;
+  fmt::format_to(out, "too narrow   {} for {} layers of triangles of {:g}, --size-min:\n",
+                 counted(static_cast<std::int64_t>(run.creeks.size()), "creek"), run.request.sizing.across,
+                 run.request.sizing.shortest);
+  for (const Creek& creek : std::span(run.creeks).first(listed))
+    fmt::format_to(out, "             {:.6g} wide at ({:.9g}, {:.9g}), {:.6g} long\n", creek.width, creek.at.x,
+                   creek.at.y, creek.length);
+  if (listed < run.creeks.size())
+    fmt::format_to(out, "             and {} more, of which --json writes all\n",
+                   grouped(static_cast<std::int64_t>(run.creeks.size() - listed)));
+}
+
 void add_input(const RunRecord& run, Text out) {
   fmt::format_to(out, "input        {}: {}, {}, {}, {}\n", run.input_file, counted(run.input_points, "point"),
                  counted(run.input_segments, "segment"), counted(run.input_holes, "hole"),
@@ -40,6 +57,7 @@ void add_input(const RunRecord& run, Text out) {
   if (run.request.input.simplify > 0)
     fmt::format_to(out, "             simplified by up to {:g}: without {} and {}\n", run.request.input.simplify,
                    counted(run.simplified.points, "point"), counted(run.simplified.rings, "small ring"));
+  add_creeks(run, out);
   const char* label = "warnings";
   for (const std::string& warning : run.warnings) {
     fmt::format_to(out, "{:<12} {}\n", label, warning);

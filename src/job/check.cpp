@@ -104,8 +104,7 @@ void check_rasters(const Request& request) {
                    "name its file in {input.rasters}");
   require(request.input.rasters.empty() || !depth.empty() || !request.sizing.expression.empty() ||
               !request.input.contour.empty(),
-          "input.rasters", "serves {sizing.size}, {output.depth} and {input.contour}, but none of them is given",
-          "give one of them");
+          "input.rasters", "serves {sizing.size} and {output.depth}, but neither is given", "give one of them");
 }
 
 void check_step(const Request::Sizing& sizing, const std::string& depth) {
@@ -122,9 +121,10 @@ void check_step(const Request::Sizing& sizing, const std::string& depth) {
 }
 
 void check_sizes(const Request::Bounds& bounds, const Request::Sizing& sizing) {
-  const bool has_sources = !sizing.expression.empty() || !sizing.background.empty();
+  const bool has_sources = sizing.is_compiled() || !sizing.background.empty();
   require(sizing.tree.empty() || (!has_sources && sizing.longest == 0), "sizing.tree",
-          "has all lengths, so that it cannot be combined with {sizing.size}, {sizing.background} or {sizing.max}",
+          "has all lengths, so that it cannot be combined with {sizing.size}, {sizing.background}, {sizing.across} or "
+          "{sizing.max}",
           "remove it or these");
   require(sizing.tree.empty() || (bounds.triangles == 0 && bounds.triangles_per_rank == 0), "sizing.tree",
           "cannot be combined with a number of triangles", "remove one, or give {bounds.area}");
@@ -136,14 +136,18 @@ void check_sizes(const Request::Bounds& bounds, const Request::Sizing& sizing) {
           "cannot be combined with {bounds.area} or {bounds.triangles}", "remove all but one");
   require(sizing.expression.empty() || (bounds.triangles == 0 && bounds.triangles_per_rank == 0), "sizing.size",
           "cannot be combined with a number of triangles", "remove one, or give {bounds.area}");
-  require(sizing.gradation == 0 || !sizing.background.empty() || !sizing.expression.empty(), "sizing.gradation",
-          "limits the growth of the lengths of {sizing.size} and {sizing.background}, but neither is given",
-          "give one of them");
+  require(sizing.across == 0 || (bounds.triangles == 0 && bounds.triangles_per_rank == 0), "sizing.across",
+          "cannot be combined with a number of triangles", "remove one, or give {bounds.area}");
+  require(
+      sizing.gradation == 0 || has_sources, "sizing.gradation",
+      "limits the growth of the lengths of {sizing.size}, {sizing.background} and {sizing.across}, but none of them "
+      "is given",
+      "give one of them");
   require(sizing.longest == 0 || sizing.shortest <= sizing.longest, "sizing.min", "is greater than {sizing.max}",
           "swap the two");
-  require(sizing.shortest == 0 || !sizing.expression.empty() || !sizing.background.empty() || sizing.longest > 0,
-          "sizing.min",
-          "limits the lengths of {sizing.size}, {sizing.background} or {sizing.max}, but none of them is given",
+  require(sizing.shortest == 0 || has_sources || sizing.longest > 0, "sizing.min",
+          "limits the lengths of {sizing.size}, {sizing.background}, {sizing.across} or {sizing.max}, but none of them "
+          "is given",
           "give one of them");
 }
 
@@ -175,8 +179,8 @@ void check_method(const Request& request) {
   if (request.run.method != Method::kDecoupled) return;
   require(request.run.presplit != Presplit::kOff, "run.presplit",
           "is off, but the decoupled method splits interfaces beforehand", "remove it, or use the coupled method");
-  require(request.sizing.expression.empty() && request.sizing.background.empty() && request.sizing.tree.empty(),
-          "run.method", "is decoupled, which needs the same bound on size everywhere, but lengths vary",
+  require(!request.sizing.varies(), "run.method",
+          "is decoupled, which needs the same bound on size everywhere, but lengths vary",
           "give {bounds.area} or {bounds.triangles} instead of lengths, or use the coupled method");
 }
 
@@ -185,9 +189,8 @@ void check_pdr(const Request& request, PlaceKind place) {
   if (request.run.method != Method::kPdr) return;
   require(place == kRanks || place == kSimulated, "run.method", "is pdr, which only experiments have",
           "use driftmesh run");
-  require(request.sizing.expression.empty() && request.sizing.background.empty() && request.sizing.tree.empty() &&
-              request.sizing.longest == 0,
-          "run.method", "is pdr, which needs the same bound on size everywhere, but lengths vary",
+  require(!request.sizing.varies() && request.sizing.longest == 0, "run.method",
+          "is pdr, which needs the same bound on size everywhere, but lengths vary",
           "give {bounds.area} or {bounds.triangles} instead of lengths, or use the coupled method");
   require(request.bounds.area > 0 || request.bounds.triangles > 0 || request.bounds.triangles_per_rank > 0,
           "run.method", "is pdr, but nothing bounds the size of triangles",

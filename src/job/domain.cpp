@@ -20,8 +20,10 @@
 #include "mesh/with_seeds.hpp"
 #include "pslg/generators.hpp"
 #include "pslg/names.hpp"
+#include "sizing/across.hpp"
 #include "sizing/described_field.hpp"
 #include "sizing/sampled_field.hpp"
+#include "sizing/smallest_field.hpp"
 
 namespace driftmesh::job {
 namespace {
@@ -37,10 +39,10 @@ RepairOptions repairs_asked(const Request::Input& asked) {
   return {.snap = asked.snap, .hull = asked.hull};
 }
 
-/// What simplification left of the repaired points; `left`: their indices.
+/// What is left of the repaired points; `left`: their indices, -1 for new ones.
 void keep_original_points(RepairReport& repairs, const std::vector<std::int32_t>& left) {
   std::vector<std::int32_t> original;
-  for (const std::int32_t point : left) original.push_back(repairs.original_point[point]);
+  for (const std::int32_t point : left) original.push_back(point < 0 ? point : repairs.original_point[point]);
   repairs.original_point = std::move(original);
 }
 
@@ -161,6 +163,11 @@ Domain read_domain(const Request& request, const Given& given, Watch& watch) {
   domain.background = source.background;
   domain.rules = given.rules;
   domain.step = step_of(request.sizing, domain.rasters);
+  const Request::Sizing& sizes = request.sizing;
+  if (sizes.across > 0 && sizes.shortest > 0)
+    domain.creeks = timed(watch, "creeks", [&] {
+      return find_creeks(domain_outline(domain.pslg), width_for(sizes.shortest, sizes.across));
+    });
   return domain;
 }
 
@@ -192,6 +199,7 @@ SizingOptions in_domain(SizingOptions asked, const SizingOptions& other) {
   asked.domain = other.domain;
   asked.input = other.input;
   asked.outline = other.outline;
+  asked.across = other.across;
   return asked;
 }
 
@@ -204,7 +212,13 @@ SizeSource size_of(const Request::Sizing& sizing, const NamedRasters& rasters, c
   if (given == nullptr) return make_size(options);
   if (const auto* described = dynamic_cast<const DescribedField*>(given))
     return make_size(in_domain(described->asked(), options));
-  return {std::make_unique<SampledField>(*given, SampledField::Grid{options.domain.low, options.spacing}), nullptr};
+  auto sampled = std::make_unique<SampledField>(*given, SampledField::Grid{options.domain.low, options.spacing});
+  SizeSource source = make_size(options);
+  if (source.field == nullptr) return {std::move(sampled), nullptr};
+  std::vector<std::unique_ptr<SizeField>> both;
+  both.push_back(std::move(sampled));
+  both.push_back(std::move(source.field));
+  return {std::make_unique<SmallestField>(std::move(both)), std::move(source.background)};
 }
 
 SizeSource exact_size_of(const SizeField& described, const Pslg* input, const Box& box) {
@@ -239,6 +253,7 @@ SizingOptions sizing_of(const Request::Sizing& asked, const Box& box) {
   sizing.expression = asked.expression;
   sizing.background = asked.background;
   sizing.tree = asked.tree;
+  sizing.across = asked.across;
   if (asked.gradation > 0) sizing.gradation = asked.gradation;
   sizing.shortest = asked.shortest;
   if (asked.longest > 0) sizing.longest = asked.longest;

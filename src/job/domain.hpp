@@ -13,6 +13,7 @@
 #include "job/request.hpp"
 #include "job/watch.hpp"
 #include "mesh/bounds.hpp"
+#include "sizing/creeks.hpp"
 #include "sizing/make_size_field.hpp"
 #include "sizing/time_step.hpp"
 
@@ -33,9 +34,10 @@ struct Domain {
   std::string projection;    ///< see InputFile
   bool from_lonlat = false;  ///< likewise
   RepairReport repairs;
-  SimplifyReport simplified;                         ///< without its points
-  Rasters rasters;                                   ///< open
-  std::shared_ptr<const SizeField> size;             ///< null: none is asked for
+  SimplifyReport simplified;              ///< without its points
+  std::vector<Creek> creeks;              ///< too narrow for what is asked for across them, the narrowest first
+  Rasters rasters;                        ///< open
+  std::shared_ptr<const SizeField> size;  ///< null: none is asked for
   std::shared_ptr<const BackgroundMesh> background;  ///< the one that the size field uses; null: none
   InsertionRules rules;
   std::shared_ptr<const TimeStep> step;  ///< null: none is asked for

@@ -144,6 +144,10 @@ Section triangle_section() {
        key("sizing.save-tree", &R::sizing, &R::Sizing::save_tree,
            "Save the target edge lengths, compiled for this domain, for --size-tree", output_file(),
            option("save-size-tree", "FILE"), entry_points(kMesh)),
+       key("sizing.across", &R::sizing, &R::Sizing::across,
+           "Layers of triangles across every channel, 0: any number. Edges get short enough for that, but not shorter "
+           "than --size-min",
+           in(0, 100), option("across", "N"), entry_points(kAll | kPlot)),
        key("sizing.gradation", &R::sizing, &R::Sizing::gradation,
            "Limit on the growth of target edge lengths per unit of distance; 0.2 to 0.3 works well; 0: no limit",
            from(0), option("gradation", "G"), entry_points(kSizes)),

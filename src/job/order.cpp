@@ -18,6 +18,7 @@ enum class Letter : std::uint8_t { kOrder, kError };
 // The fields other than plan and input, in the same order for writing and reading.
 template <class Stream, class Fields>
 void transfer_rest(Stream& stream, Fields& order) {
+  stream.value(order.sizing.across);
   stream.value(order.sizing.gradation);
   stream.value(order.sizing.shortest);
   stream.value(order.sizing.longest);

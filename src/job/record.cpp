@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <string>
 
 #include "base/key_error.hpp"
 #include "driftmesh/error.hpp"
@@ -17,6 +18,7 @@ std::string sizing_words(const Request::Sizing& sizing) {
   if (!sizing.expression.empty()) add(sizing.expression);
   if (!sizing.background.empty()) add(sizing.background);
   if (!sizing.tree.empty()) add(sizing.tree);
+  if (sizing.across > 0) add(std::to_string(sizing.across) + " layers across channels");
   if (sizing.gradation > 0) add("gradation " + shortest_text(sizing.gradation));
   if (sizing.shortest > 0) add("at least " + shortest_text(sizing.shortest));
   if (sizing.longest > 0) add("at most " + shortest_text(sizing.longest));
@@ -57,6 +59,7 @@ void record_domain(RunRecord& run, const Request& request, const Domain& domain)
   run.input_regions = count_of(domain.pslg.regions.size());
   run.repairs = domain.repairs;
   run.simplified = domain.simplified;
+  run.creeks = domain.creeks;
   run.min_angle = request.bounds.angle;
   run.sizing = sizing_words(request.sizing);
 }

@@ -69,6 +69,7 @@ struct Request {
   struct Sizing {
     std::string expression;
     std::string background;
+    std::int32_t across = 0;  ///< layers of triangles across every channel; 0: any number
     std::string tree{};       ///< a file of compiled lengths, in place of all others; empty: none
     std::string save_tree{};  ///< the file that compiled lengths are saved in; empty: none
     double gradation = 0;     ///< 0: lengths are taken as they are
@@ -79,6 +80,10 @@ struct Request {
     double courant = defaults::kCourant;
     double courant_speed = 0;
     CourantLength courant_length = CourantLength::kEdge;
+    /// Whether some lengths are those of expressions.
+    [[nodiscard]] bool is_compiled() const { return !expression.empty() || across > 0; }
+    /// Whether lengths vary from place to place.
+    [[nodiscard]] bool varies() const { return is_compiled() || !background.empty() || !tree.empty(); }
   } sizing;
 
   struct Limits {

@@ -9,6 +9,7 @@
 #include "base/standard_streams.hpp"
 #include "driftmesh/error.hpp"
 #include "pslg/triangle_files.hpp"
+#include "sizing/across.hpp"
 #include "sizing/exact_field.hpp"
 #include "sizing/expression_field.hpp"
 #include "sizing/gradation.hpp"
@@ -74,6 +75,13 @@ Background of_points(Mesh mesh, std::vector<double> lengths, std::optional<doubl
   return BackgroundFunction::of_points(std::move(mesh), std::move(lengths));
 }
 
+/// The expression that is asked for, and what layers across channels ask for.
+std::string lengths_of(const SizingOptions& options) {
+  if (options.across == 0) return options.expression;
+  const std::string across = "width()/" + std::to_string(width_for(1, options.across));
+  return options.expression.empty() ? across : "min(" + options.expression + ", " + across + ")";
+}
+
 /// With limited growth, if that is asked for. `field`: gives the lengths of the expression.
 std::shared_ptr<const PlaneFunction> grown(std::shared_ptr<const ExpressionField> field, const SizingOptions& options) {
   constexpr double kNarrow = 0.5, kLittle = 0.1;
@@ -124,8 +132,8 @@ SizeSource make_size(const SizingOptions& options) {
   const double shortest = options.shortest > 0 ? options.shortest : intervals::kAll.low;
   std::vector<std::shared_ptr<const PlaneFunction>> functions;
   std::shared_ptr<const ExpressionField> expression;
-  if (!options.expression.empty()) {
-    expression = std::make_shared<const ExpressionField>(options.expression, options.shortest, options.longest,
+  if (!options.expression.empty() || options.across > 0) {
+    expression = std::make_shared<const ExpressionField>(lengths_of(options), options.shortest, options.longest,
                                                          options.input, options.rasters, options.outline);
     functions.push_back(grown(expression, options));
   }

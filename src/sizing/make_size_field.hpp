@@ -25,6 +25,8 @@ struct SizingOptions {
   std::shared_ptr<const BackgroundFunction> lengths{};
   /// A file that write_size_tree wrote for the domain, instead of all others; see read_size_tree. Empty: none.
   std::string tree{};
+  /// Layers of triangles across every channel; see across.hpp. 0: any number.
+  int across = 0;
   /// By how much lengths may grow per unit of distance, > 0; absent: no limit. 0.2 to 0.3 grade well. Those of the
   /// background mesh along its edges, those of the expression along straight lines in the box of the domain.
   std::optional<double> gradation{};
@@ -37,7 +39,7 @@ struct SizingOptions {
   /// With the segments that distance() in the expression measures to; null: none. Not owned, and needed only while the
   /// field is made.
   const Pslg* input = nullptr;
-  /// The outline of the domain, of which width() in the expression is the width.
+  /// The outline of the domain, of which width() in the expression is the width; needed for `across`, too.
   FindOutline outline{};
   /// Those that the expression may name.
   NamedRasters rasters{};

@@ -17,6 +17,13 @@ using config::Json;
 
 constexpr int kVersion = 1;
 
+Json creeks_json(const RunRecord& run) {
+  Json list = Json::array();
+  for (const Creek& creek : run.creeks)
+    list.push_back({{"place", {creek.at.x, creek.at.y}}, {"width", creek.width}, {"length", creek.length}});
+  return list;
+}
+
 Json input_json(const RunRecord& run) {
   const RepairReport& r = run.repairs;
   return {{"file", run.input_file},
@@ -39,6 +46,7 @@ Json input_json(const RunRecord& run) {
             {"largest_move", r.largest_move},
             {"marker_conflicts", r.marker_conflicts.count}}},
           {"simplified", {{"points", run.simplified.points}, {"rings", run.simplified.rings}}},
+          {"narrow_creeks", creeks_json(run)},
           {"warnings", run.warnings}};
 }
 

@@ -70,6 +70,8 @@ const char* flaw_name(Flaw flaw) {
       return "large area";
     case Flaw::kTimeStep:
       return "large Courant number";
+    case Flaw::kFewAcross:
+      return "few triangles across a channel";
   }
   return "unknown flaw";
 }

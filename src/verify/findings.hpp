@@ -48,8 +48,9 @@ enum class Flaw : std::uint8_t {
   kSmallAngle,  ///< an angle below the bound that nothing in the input explains
   kLargeArea,   ///< an area above the bound
   kTimeStep,    ///< a Courant number above the bound, if that counts as a flaw
+  kFewAcross,   ///< fewer layers of triangles across a channel than asked for
 };
-inline constexpr std::size_t kFlawCount = to_index(Flaw::kTimeStep) + 1;
+inline constexpr std::size_t kFlawCount = to_index(Flaw::kFewAcross) + 1;
 
 /// The name of the kind in words: "not Delaunay".
 [[nodiscard]] const char* flaw_name(Flaw flaw);

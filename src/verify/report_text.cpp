@@ -50,6 +50,18 @@ void add_counts(const VerifyReport& report, Text out) {
                    report.quality.largest_angle);
 }
 
+void add_channels(const VerifyReport& report, const AcrossRule& rule, Text out) {
+  if (rule.layers == 0) return;
+  const AcrossReport& across = report.across;
+  append_formatted(out, "channels       {} crossings of {}{} layers of triangles", grouped(across.crossings),
+                   across.fewest < rule.layers ? "" : "at least ", across.fewest);
+  if (across.fewest < rule.layers) append_formatted(out, " or more");
+  if (across.too_narrow > 0)
+    append_formatted(out, "; {} more are narrower than {:.6g}", grouped(across.too_narrow), rule.narrowest);
+  append_formatted(out, "\n               {} triangles have all corners on the boundary\n",
+                   grouped(across.on_boundary));
+}
+
 void add_histogram(const Quality& quality, Text out) {
   constexpr double kBarLength = 50;
   const auto tens = quality.angles_by_ten();
@@ -117,6 +129,7 @@ std::string what_was_checked(const VerifyReport& report, const VerifyOptions& op
   if (options.size != nullptr) text += ", sizes asked for";
   if (options.depth != nullptr && report.step.above == 0)
     text += formatted(", a time step of {:g} s", options.courant.step);
+  if (options.across.layers > 0) text += formatted(", {} layers of triangles across channels", options.across.layers);
   return text;
 }
 
@@ -126,6 +139,7 @@ std::string report_text(const VerifyReport& report, const VerifyOptions& options
   std::string text;
   std::string& out = text;
   add_counts(report, out);
+  add_channels(report, options.across, out);
   add_histogram(report.quality, out);
   add_exceptions(report.quality, options.min_angle, out);
   add_step(report, options, out);

@@ -56,6 +56,7 @@ class Verification {
       if (conflict_) findings_.add(Flaw::kInputNotPlanar, [&] { return *conflict_; });
       check_triangulation();
       check_against_domain();
+      check_channels();
       list_duplicates();
     }
     report_.findings = std::move(findings_);
@@ -311,6 +312,23 @@ class Verification {
         return region != nullptr ? region->max_area : 0;
       };
     return bounds;
+  }
+
+  /// Of a mesh with no flaws but in quality.
+  void check_channels() {
+    const std::uint64_t quality = findings_.count(Flaw::kSmallAngle) + findings_.count(Flaw::kLargeArea);
+    if (options_.across.layers == 0 || findings_.total() > quality) return;
+    if (whole_) return with_piece(0, [&](const NamedMesh& piece) { check_channels_of(piece.mesh()); });
+    std::vector<Mesh> pieces(pieces_.count);
+    for_each_piece([&](const NamedMesh& piece, std::size_t k) { pieces[k] = piece.mesh(); });
+    MergeFaults faults;
+    check_channels_of(merge_pieces(pieces, faults));
+  }
+
+  void check_channels_of(const Mesh& mesh) {
+    const auto is_corner = [&](std::int32_t v) { return corners_->find(mesh.points[v]) != kNone; };
+    report_.across = corners_ ? check_across(mesh, is_corner, options_.across, findings_)
+                              : check_across(mesh, {}, options_.across, findings_);
   }
 
   /// Inside pieces: a mesh without other flaws has none, for it covers no place twice.

@@ -11,6 +11,7 @@
 #include "driftmesh/size_field.hpp"
 #include "driftmesh/time_step.hpp"
 #include "mesh/bounds.hpp"
+#include "verify/across_check.hpp"
 #include "verify/findings.hpp"
 #include "verify/quality.hpp"
 #include "verify/step_check.hpp"
@@ -26,6 +27,7 @@ struct VerifyOptions {
   double size_spacing = 0;
   /// At corners and centroids, too, edges may be as much longer than the size as between them.
   bool size_is_compiled = false;
+  AcrossRule across{};  ///< layers of triangles across channels; a mesh in pieces is joined for it
   /// The input before it was repaired, or null. If it consists of polygons, these are read anew, in the verifier's own
   /// way: what repair made of them must be the same up to rounding. Must outlive the call.
   const Pslg* given = nullptr;
@@ -67,7 +69,8 @@ struct VerifyReport {
   double input_area = 0;                 ///< if against_input: of the domain that the input describes
   bool polygons_judged = true;           ///< false: rounding keeps options.given from being read anew
   Quality quality;
-  StepMeasures step;  ///< if options.depth is given
+  StepMeasures step;    ///< if options.depth is given
+  AcrossReport across;  ///< if it was asked for
   Findings findings;
 
   /// Whether no flaw was found. Exceptions (quality.exceptions) are not flaws.
@@ -82,7 +85,8 @@ struct VerifyReport {
 ///   every such edge, it holds everywhere (Chew 1989). Edges between triangles of different subdomains
 ///   (Mesh::subdomains) count as constrained here;
 /// - areas and angles meet the bounds of `options`; see ExceptionReason for accepted exceptions, and SizeCheck for what
-///   a size field asks for.
+///   a size field asks for;
+/// - channels have as many layers of triangles as options.across asks for, if so: see check_across.
 /// Flaws of the mesh are reported, never thrown, whatever its arrays contain. Linear time except for the boundary,
 /// which takes O(n log n); about 20 bytes per triangle besides the mesh. Throws LimitError above 1.4 billion triangles.
 [[nodiscard]] VerifyReport verify(const Mesh& mesh, const VerifyOptions& options);

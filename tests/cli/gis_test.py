@@ -156,7 +156,7 @@ class Rasters(Gis):
         self.refuse(*mesh, "--raster", "x=depth.asc", "--size", "1", code=2, says=["--raster has the name 'x'"])
         self.refuse(*mesh, "--raster", "slope=depth.asc", "--size", "1", code=2, says=["slope"])
         self.refuse(*mesh, "--raster", "depth.asc", "--size", "1", code=2, says=["NAME=VALUE"])
-        self.refuse(*mesh, "--raster", "depth=depth.asc", code=2, says=["--size, --depth and --contour"])
+        self.refuse(*mesh, "--raster", "depth=depth.asc", code=2, says=["--size and --depth"])
         self.refuse(*mesh, "--raster", "depth=depth.asc", "--depth", "other", code=2, says=["'other'"])
         self.refuse(*mesh, "--raster", "depth=depth.asc", "--size", "depth", "-o", "depth.asc", says=["depth.asc"])
         self.refuse(*mesh, "--layers", "a", says=["has no layers"])

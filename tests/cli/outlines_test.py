@@ -106,7 +106,7 @@ class Outlines(Cli):
         self.succeed("decompose", "frame.vtu", "-n", "2", "-o", "frame.parts")
         self.write("no.vtu", "not a mesh")
         self.refuse("mesh", "no.vtu", says=["no.vtu"])
-        self.refuse("mesh", "frame.mesh", says=["is written, but not read"])
+        self.refuse("mesh", "frame.pmesh", says=["is written, but not read"])
         self.refuse("mesh", "frame.vtu", "--layers", "a", says=["is a mesh, which has no layers"])
         self.refuse("mesh", "frame.vtu", "-o", "frame.vtu", says=["frame.vtu"])
 

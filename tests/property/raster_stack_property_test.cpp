@@ -229,7 +229,7 @@ TEST_CASE("tiles in degrees serve a domain in meters") {
   // The finer one, in the middle of the other, is deeper by 100.
   const std::vector<Tile> tiles{tile_of(1, {2, 49.5}, 0.01, 201, 0), tile_of(2, {2.9, 49.9}, 0.001, 201, 100)};
   const Box domain = Box::of(std::vector{utm(2.5, 49.7, zone), utm(3.5, 50.3, zone)});
-  const OpenedRaster opened = open_rasters(paths_of(tiles), {domain, {}, zone}, {2000, true});
+  const OpenedRaster opened = open_rasters(paths_of(tiles), {domain, {}, Projection(zone)}, {2000, true});
   int inside = 0, outside = 0;
   for (int n = 0; n < 1000; ++n) {
     const Point p = place_in(random, domain), place = geographic(p, zone);

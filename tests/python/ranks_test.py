@@ -177,7 +177,7 @@ class Callables(unittest.TestCase):
         x, y, first, other, rank = map(float, re.match(pattern, str(caught.exception)).groups())
         self.assertEqual(len(set(WORLD.allgather(str(caught.exception)))), 1)
         if WORLD.rank in (0, rank):
-            self.assertEqual(size(x, y), first if FIRST else other)
+            self.assertLess(abs(size(x, y) / (first if FIRST else other) - 1), 0.02)    # told as they are compiled
 
     def test_communicators(self):
         piece = piece_of()

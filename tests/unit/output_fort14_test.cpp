@@ -193,7 +193,10 @@ TEST_CASE("strings are chains that pass no node twice, and cover the boundary on
     }
     std::ranges::shuffle(mesh.edges, random);
     std::vector<std::string> warnings;
-    write_mesh(mesh, path, {.warn = [&](const std::string& text) { warnings.push_back(text); }});
+    const auto warn = [&](const std::string& text) {
+      if (text.find("two nodes") == std::string::npos) warnings.push_back(text);  // of short open boundaries
+    };
+    write_mesh(mesh, path, {.warn = warn});
     const auto strings = strings_in(file_bytes(path));
     check_strings(mesh, strings, [&](const Directed& edge) { return types.at(edge); });
     const auto touched = std::ranges::count_if(degree, [](const auto& d) { return d.second > 1; });
