@@ -118,6 +118,12 @@ cli::Command convert_command() {
                 .name = "boundary-only",
                 .help = "Leave out segments inside of the domain, for programs that refuse them (deal.II)",
                 .take = cli::into(options->boundary_only)},
+               {.name = "order",
+                .value = "ORDER",
+                .help = "Order of points and triangles: given, hilbert (along a Hilbert curve) or rcm (reverse "
+                        "Cuthill-McKee, for solvers: a small bandwidth)",
+                .choices = {"given", "hilbert", "rcm"},
+                .take = cli::into(options->order)},
                {.name = "open-boundary",
                 .value = "MARKERS",
                 .help = "Markers of the segments that are open sea, in .14, .grd and .gr3 (default: those called open)",

@@ -193,6 +193,9 @@ class Formats(Cli):
         self.succeed("convert", "m.vtu", "again.mesh")
         self.assertEqual((self.folder / "m.mesh").read_text(), (self.folder / "again.mesh").read_text())
         self.succeed("check", "m.mesh", "in.poly")
+        self.succeed("convert", "m.vtu", "m.msh", "--order", "rcm")
+        self.succeed("check", "m.msh", "in.poly")
+        (self.folder / "m.msh").unlink()
         self.refuse("check", "m.pmesh", code=2, says=["is written, but not read"])
         self.assertEqual(self.files(), ["again.mesh", "in.poly", "m.mesh", "m.vtu"])
 
