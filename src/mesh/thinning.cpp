@@ -91,8 +91,8 @@ class Thinning {
     remove_vertex(mesh_, first_spoke(spoke_at(t, *best)), changed_);
     ++deleted_;
     std::ranges::sort(changed_);
-    const auto twice = std::ranges::unique(changed_);
-    changed_.erase(twice.begin(), twice.end());
+    const auto twice = std::unique(changed_.begin(), changed_.end());
+    changed_.erase(twice, changed_.end());
     for (const TriangleId made : changed_)
       if (mesh_.triangles[made].alive()) note(made);
     return true;
