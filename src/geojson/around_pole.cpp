@@ -88,11 +88,10 @@ PolygonRing without_spikes(const PolygonRing& ring) {
   }
   for (;;) {
     const std::size_t n = kept.size();
-    if (n >= 2 && kept.front() == kept.back())
-      kept.pop_back();
-    else if (n >= 3 && kept[1] == kept.back())
+    const bool is_closed = n >= 2 && kept.front() == kept.back();
+    if (!is_closed && n >= 3 && kept[1] == kept.back())
       kept.erase(kept.begin());
-    else if (n >= 3 && kept.front() == kept[n - 2])
+    else if (is_closed || (n >= 3 && kept.front() == kept[n - 2]))
       kept.pop_back();
     else
       return kept;
