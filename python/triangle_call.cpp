@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include <array>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,7 +61,7 @@ Tables tables_from(const py::dict& given) {
 /// A copy, since what is returned belongs to the caller.
 template <class T, class Value>
 py::array_t<T> table_of(const std::vector<Value>& values, std::size_t columns) {
-  const std::size_t numbers = values.size() * (sizeof(Value) / sizeof(T));
+  const std::size_t numbers = std::span<const Value>(values).size_bytes() / sizeof(T);
   py::array_t<T> array({columns == 0 ? 0 : numbers / columns, columns});
   std::copy_n(reinterpret_cast<const T*>(values.data()), numbers, array.mutable_data());
   return array;
