@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "adapt/interpolate.hpp"
@@ -38,14 +39,26 @@ void integrate(const std::vector<Point>& polygon, const Sum& sum) {
   }
 }
 
-/// For each old triangle its area over the sum of its overlaps, 1 but for rounding.
-IdVector<TriangleId, double> corrections(const Triangulation& mesh, const std::vector<Overlap>& overlaps) {
-  IdVector<TriangleId, double> sum(mesh.triangles.size(), 0);
-  for (const Overlap& o : overlaps) sum[o.old_triangle] += o.area;
-  for (const TriangleId t : ids_of(mesh.triangles))
-    if (sum[t] > 0) sum[t] = area_of(mesh, t) / sum[t];
-  return sum;
-}
+/// What the new triangles of a subdomain overlap of those that are gone.
+struct Overlaps {
+  std::vector<Overlap> list;  ///< new triangle by new triangle
+  IdVector<TriangleId, double>
+      correction{};  ///< an old triangle's area over the sum of its overlaps: 1 but for rounding
+
+  /// Other triangles have no overlaps but for rounding.
+  explicit Overlaps(const Lineage::Change& change) {
+    if (change.is_the_same) return;
+    IdVector<TriangleId, bool> stays(change.old_mesh.triangles.size(), false);
+    for (const TriangleId from : change.same)
+      if (from != kNone) stays[from] = true;
+    list = overlaps_of(change.old_mesh, change.new_mesh, [&](TriangleId t) { return change.same[t] == kNone; });
+    std::erase_if(list, [&](const Overlap& o) { return stays[o.old_triangle]; });
+    correction.assign(change.old_mesh.triangles.size(), 0);
+    for (const Overlap& o : list) correction[o.old_triangle] += o.area;
+    for (const TriangleId t : ids_of(change.old_mesh.triangles))
+      if (correction[t] > 0) correction[t] = area_of(change.old_mesh, t) / correction[t];
+  }
+};
 
 struct Range {
   double least = std::numeric_limits<double>::infinity();
@@ -56,179 +69,260 @@ struct Range {
   }
 };
 
-/// Overlaps of triangles that are new with those that are gone. Others have none but for rounding.
-std::vector<Overlap> overlaps_in(const Lineage::Change& change) {
-  IdVector<TriangleId, bool> stays(change.old_mesh.triangles.size(), false);
-  for (const TriangleId from : change.same)
-    if (from != kNone) stays[from] = true;
-  std::vector<Overlap> overlaps =
-      overlaps_of(change.old_mesh, change.new_mesh, [&](TriangleId t) { return change.same[t] == kNone; });
-  std::erase_if(overlaps, [&](const Overlap& o) { return stays[o.old_triangle]; });
-  return overlaps;
-}
+/// One field on its way to the new mesh.
+class OnItsWay {
+ public:
+  OnItsWay(const Lineage& lineage, const ConservedField& field) : lineage_(lineage), field_(field) {}
+  virtual ~OnItsWay() = default;
+  OnItsWay(const OnItsWay&) = delete;
+  OnItsWay& operator=(const OnItsWay&) = delete;
 
-/// Calls visit(change, overlaps, corrections) for each subdomain that has changed, for several at once.
-template <class Visit>
-void visit_overlaps(const Lineage& lineage, const Visit& visit) {
-  lineage.visit_parts([&](SubdomainId /*s*/, const Lineage::Change& change) {
+  /// Takes what a subdomain has of the field; called for several subdomains at once.
+  virtual void take(SubdomainId s, const Lineage::Change& change, const Overlaps& overlaps) = 0;
+  /// The values on the new mesh, once all subdomains have been taken.
+  [[nodiscard]] virtual std::vector<double> values() = 0;
+
+ protected:
+  [[nodiscard]] std::size_t components() const { return field_.components; }
+  [[nodiscard]] const std::vector<double>& old() const { return field_.old; }
+  [[nodiscard]] const Lineage& lineage() const { return lineage_; }
+
+ private:
+  const Lineage& lineage_;
+  const ConservedField& field_;
+};
+
+/// One value for each triangle, the mean of what it overlaps.
+class AtTriangles final : public OnItsWay {
+ public:
+  AtTriangles(const Lineage& lineage, const ConservedField& field)
+      : OnItsWay(lineage, field), values_(lineage.new_triangles() * components()) {
+    lineage.visit_same_triangles([&](std::int32_t triangle, std::int32_t from, int /*turn*/) {
+      for (std::size_t k = 0; k < components(); ++k) values_[place(triangle, k)] = old()[place(from, k)];
+    });
+  }
+
+  void take(SubdomainId /*s*/, const Lineage::Change& change, const Overlaps& overlaps) override {
     if (change.is_the_same) return;
-    const std::vector<Overlap> overlaps = overlaps_in(change);
-    visit(change, overlaps, corrections(change.old_mesh, overlaps));
-  });
-}
-
-}  // namespace
-
-std::vector<double> conserved_at_triangles(const Lineage& lineage, const std::vector<double>& old,
-                                           std::size_t components) {
-  std::vector<double> values(lineage.new_triangles() * components);
-  lineage.visit_same_triangles([&](std::int32_t triangle, std::int32_t from, int /*turn*/) {
-    std::copy_n(old.begin() + static_cast<std::ptrdiff_t>(to_index(from) * components), components,
-                values.begin() + static_cast<std::ptrdiff_t>(to_index(triangle) * components));
-  });
-  visit_overlaps(lineage, [&](const Lineage::Change& change, const std::vector<Overlap>& overlaps,
-                              const IdVector<TriangleId, double>& correction) {
-    for (const Overlap& o : overlaps)
-      for (std::size_t k = 0; k < components; ++k) {
-        const double from = old[to_index(change.old_number[o.old_triangle]) * components + k];
-        values[to_index(change.new_number[o.new_triangle]) * components + k] +=
-            from * o.area * correction[o.old_triangle];
+    for (const Overlap& o : overlaps.list)
+      for (std::size_t k = 0; k < components(); ++k) {
+        const double from = old()[place(change.old_number[o.old_triangle], k)];
+        values_[place(change.new_number[o.new_triangle], k)] += from * o.area * overlaps.correction[o.old_triangle];
       }
     for (const TriangleId t : ids_of(change.new_number))
       if (change.new_number[t] != kNone && change.same[t] == kNone)
-        for (std::size_t k = 0; k < components; ++k)
-          values[to_index(change.new_number[t]) * components + k] /= area_of(change.new_mesh, t);
-  });
-  return values;
-}
+        for (std::size_t k = 0; k < components(); ++k)
+          values_[place(change.new_number[t], k)] /= area_of(change.new_mesh, t);
+  }
 
-std::vector<double> conserved_at_corners(const Lineage& lineage, const std::vector<double>& old,
-                                         std::size_t components) {
-  const auto place = [components](std::int32_t triangle, int corner, std::size_t k) {
-    return (3 * to_index(triangle) + static_cast<std::size_t>(corner)) * components + k;
-  };
-  std::vector<double> values(3 * lineage.new_triangles() * components);
-  lineage.visit_same_triangles([&](std::int32_t triangle, std::int32_t from, int turn) {
-    for (int i = 0; i < 3; ++i)
-      for (std::size_t k = 0; k < components; ++k) values[place(triangle, i, k)] = old[place(from, (i + turn) % 3, k)];
-  });
-  visit_overlaps(lineage, [&](const Lineage::Change& change, const std::vector<Overlap>& overlaps,
-                              const IdVector<TriangleId, double>& correction) {
-    for (std::size_t first = 0; first < overlaps.size();) {
-      const TriangleId t = overlaps[first].new_triangle;
-      std::size_t end = first;
-      while (end < overlaps.size() && overlaps[end].new_triangle == t) ++end;
-      for (std::size_t k = 0; k < components; ++k) {
-        Weights moments{};  // integrals with the function of each corner
-        Range range;
-        for (std::size_t j = first; j < end; ++j) {
-          const Overlap& o = overlaps[j];
-          std::array<double, 3> at{};
-          for (int i = 0; i < 3; ++i) {
-            at[i] = old[place(change.old_number[o.old_triangle], i, k)];
-            range.add(at[i]);
-          }
-          integrate(o.corners, [&](double weight, const Point& p) {
-            const Weights from = weights_in(change.old_mesh, o.old_triangle, p), to = weights_in(change.new_mesh, t, p);
-            const double value = from[0] * at[0] + from[1] * at[1] + from[2] * at[2];
-            for (int i = 0; i < 3; ++i) moments[i] += correction[o.old_triangle] * weight * value * to[i];
-          });
-        }
-        const double all = moments[0] + moments[1] + moments[2], area = area_of(change.new_mesh, t);
-        const double mean = all / area;
-        std::array<double, 3> off_mean{};
-        double share = 1;  // of the differences from the mean
-        for (int i = 0; i < 3; ++i) {
-          off_mean[i] = 12 / area * (moments[i] - all / 4) - mean;
-          const double room = off_mean[i] > 0 ? range.most - mean : range.least - mean;
-          if (off_mean[i] != 0) share = std::min(share, std::max(0.0, room / off_mean[i]));
-        }
-        for (int i = 0; i < 3; ++i) values[place(change.new_number[t], i, k)] = mean + share * off_mean[i];
-      }
-      first = end;
+  [[nodiscard]] std::vector<double> values() override { return std::move(values_); }
+
+ private:
+  [[nodiscard]] std::size_t place(std::int32_t triangle, std::size_t k) const {
+    return to_index(triangle) * components() + k;
+  }
+  std::vector<double> values_;
+};
+
+/// Three values for each triangle: the L2 projection, brought closer to its mean where it would exceed what it
+/// overlaps.
+class AtCorners final : public OnItsWay {
+ public:
+  AtCorners(const Lineage& lineage, const ConservedField& field)
+      : OnItsWay(lineage, field), values_(3 * lineage.new_triangles() * components()) {
+    lineage.visit_same_triangles([&](std::int32_t triangle, std::int32_t from, int turn) {
+      for (int i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < components(); ++k)
+          values_[place(triangle, i, k)] = old()[place(from, (i + turn) % 3, k)];
+    });
+  }
+
+  void take(SubdomainId /*s*/, const Lineage::Change& change, const Overlaps& overlaps) override {
+    const std::vector<Overlap>& list = overlaps.list;
+    for (std::size_t first = 0, end = 0; first < list.size(); first = end) {
+      while (end < list.size() && list[end].new_triangle == list[first].new_triangle) ++end;
+      for (std::size_t k = 0; k < components(); ++k) project(change, overlaps, first, end, k);
     }
-  });
-  return values;
-}
+  }
 
-std::vector<double> conserved_at_points(const Lineage& lineage, const std::vector<double>& old,
-                                        std::size_t components) {
-  const std::size_t points = lineage.new_points();
-  // Of each subdomain, since sums over those that share a point are formed in the order of their numbers.
-  struct Share {
-    std::vector<std::int32_t> point;
-    std::vector<double> moments;  // integrals of the field with the function of each point
-    std::vector<double> mass;     // of that function alone
-    std::vector<bool> changed;    // a triangle at the point does not stay
-  };
-  IdVector<SubdomainId, Share> shares(lineage.subdomains());
-  lineage.visit_parts([&](SubdomainId s, const Lineage::Change& change) {
-    Share& share = shares[s];
+  [[nodiscard]] std::vector<double> values() override { return std::move(values_); }
+
+ private:
+  [[nodiscard]] std::size_t place(std::int32_t triangle, int corner, std::size_t k) const {
+    return (3 * to_index(triangle) + static_cast<std::size_t>(corner)) * components() + k;
+  }
+
+  /// The component of the triangle whose overlaps are those from `first` to `end`.
+  void project(const Lineage::Change& change, const Overlaps& overlaps, std::size_t first, std::size_t end,
+               std::size_t k) {
+    const TriangleId t = overlaps.list[first].new_triangle;
+    Weights moments{};  // integrals with the function of each corner
+    Range range;
+    for (std::size_t j = first; j < end; ++j) {
+      const Overlap& o = overlaps.list[j];
+      std::array<double, 3> at{};
+      for (int i = 0; i < 3; ++i) {
+        at[i] = old()[place(change.old_number[o.old_triangle], i, k)];
+        range.add(at[i]);
+      }
+      integrate(o.corners, [&](double weight, const Point& p) {
+        const Weights from = weights_in(change.old_mesh, o.old_triangle, p), to = weights_in(change.new_mesh, t, p);
+        const double value = from[0] * at[0] + from[1] * at[1] + from[2] * at[2];
+        for (int i = 0; i < 3; ++i) moments[i] += overlaps.correction[o.old_triangle] * weight * value * to[i];
+      });
+    }
+    const double all = moments[0] + moments[1] + moments[2], area = area_of(change.new_mesh, t);
+    const double mean = all / area;
+    std::array<double, 3> off_mean{};
+    double share = 1;  // the part of the differences from the mean that is kept
+    for (int i = 0; i < 3; ++i) {
+      off_mean[i] = 12 / area * (moments[i] - all / 4) - mean;
+      const double room = off_mean[i] > 0 ? range.most - mean : range.least - mean;
+      if (off_mean[i] != 0) share = std::min(share, std::max(0.0, room / off_mean[i]));
+    }
+    for (int i = 0; i < 3; ++i) values_[place(change.new_number[t], i, k)] = mean + share * off_mean[i];
+  }
+
+  std::vector<double> values_;
+};
+
+/// Values at points: interpolation, brought closer to the lumped projection (Farrell and others 2009) just as far as
+/// conserves the integral, where that moves it in the right direction.
+class AtPoints final : public OnItsWay {
+ public:
+  AtPoints(const Lineage& lineage, const ConservedField& field)
+      : OnItsWay(lineage, field), shares_(lineage.subdomains()) {}
+
+  void take(SubdomainId s, const Lineage::Change& change, const Overlaps& overlaps) override {
+    Share& share = shares_[s];
     const std::size_t vertices = change.new_mesh.points.size();
     share.point.assign(change.new_place.begin(), change.new_place.end());
-    share.moments.assign(vertices * components, 0);
+    share.moments.assign(vertices * components(), 0);
     share.mass.assign(vertices, 0);
     share.changed.assign(vertices, false);
+    take_triangles(s, change, share);
+    take_overlaps(change, overlaps, share);
+  }
+
+  [[nodiscard]] std::vector<double> values() override {
+    const std::size_t points = lineage().new_points();
+    Share sum{.point = {},
+              .moments = std::vector<double>(points * components()),
+              .mass = std::vector<double>(points),
+              .changed = std::vector<bool>(points, false)};
+    for (const Share& share : shares_) add(share, sum);
+    std::vector<double> values = interpolated_at_points(lineage(), old(), components());
+    for (std::size_t k = 0; k < components(); ++k) correct(sum, k, values);
+    return values;
+  }
+
+ private:
+  /// The part of a subdomain: sums over those that share a point are formed in the order of their numbers.
+  struct Share {
+    std::vector<std::int32_t> point;
+    std::vector<double> moments;  ///< integrals of the field with the function of each point
+    std::vector<double> mass;     ///< integrals of these functions
+    std::vector<bool> changed;    ///< whether a triangle at the point does not stay
+  };
+
+  /// All masses, and moments with triangles that stay.
+  void take_triangles(SubdomainId s, const Lineage::Change& change, Share& share) const {
     for (const TriangleId t : ids_of(change.new_mesh.triangles)) {
       if (!change.new_mesh.triangles[t].alive()) continue;
       const double third = area_of(change.new_mesh, t) / 3;
       const bool stays = change.is_the_same || change.same[t] != kNone;
       for (const VertexId v : change.new_mesh.triangles[t].vertex) {
         share.mass[to_index(v)] += third;
-        if (!stays) share.changed[to_index(v)] = true;
-        if (!stays) continue;
-        const std::int32_t from = lineage.old_point_of(s, v);
-        for (std::size_t k = 0; k < components; ++k)
-          share.moments[to_index(v) * components + k] += third * old[to_index(from) * components + k];
+        if (!stays) {
+          share.changed[to_index(v)] = true;
+          continue;
+        }
+        const std::int32_t from = lineage().old_point_of(s, v);
+        for (std::size_t k = 0; k < components(); ++k)
+          share.moments[to_index(v) * components() + k] += third * old()[to_index(from) * components() + k];
       }
     }
-    if (change.is_the_same) return;
-    const std::vector<Overlap> overlaps = overlaps_in(change);
-    const IdVector<TriangleId, double> correction = corrections(change.old_mesh, overlaps);
-    for (const Overlap& o : overlaps) {
+  }
+
+  void take_overlaps(const Lineage::Change& change, const Overlaps& overlaps, Share& share) const {
+    for (const Overlap& o : overlaps.list) {
       const auto& from = change.old_mesh.triangles[o.old_triangle].vertex;
       const auto& to = change.new_mesh.triangles[o.new_triangle].vertex;
       integrate(o.corners, [&](double weight, const Point& p) {
         const Weights in_old = weights_in(change.old_mesh, o.old_triangle, p),
                       in_new = weights_in(change.new_mesh, o.new_triangle, p);
-        for (std::size_t k = 0; k < components; ++k) {
+        for (std::size_t k = 0; k < components(); ++k) {
           double value = 0;
-          for (int i = 0; i < 3; ++i) value += in_old[i] * old[to_index(change.old_place[from[i]]) * components + k];
           for (int i = 0; i < 3; ++i)
-            share.moments[to_index(to[i]) * components + k] += correction[o.old_triangle] * weight * value * in_new[i];
+            value += in_old[i] * old()[to_index(change.old_place[from[i]]) * components() + k];
+          for (int i = 0; i < 3; ++i)
+            share.moments[to_index(to[i]) * components() + k] +=
+                overlaps.correction[o.old_triangle] * weight * value * in_new[i];
         }
       });
     }
-  });
+  }
 
-  std::vector<double> low(points * components), mass(points);
-  std::vector<bool> changed(points, false);
-  for (const Share& share : shares)
+  void add(const Share& share, Share& sum) const {
     for (std::size_t v = 0; v < share.point.size(); ++v) {
       if (share.point[v] == kNone) continue;
       const std::size_t i = to_index(share.point[v]);
-      mass[i] += share.mass[v];
-      if (share.changed[v]) changed[i] = true;
-      for (std::size_t k = 0; k < components; ++k) low[i * components + k] += share.moments[v * components + k];
-    }
-  std::vector<double> values = interpolated_at_points(lineage, old, components);
-  for (std::size_t k = 0; k < components; ++k) {
-    double missing = 0, upward = 0, downward = 0;
-    for (std::size_t i = 0; i < points; ++i) {
-      if (!changed[i]) continue;
-      const double step = low[i * components + k] - mass[i] * values[i * components + k];
-      missing += step;
-      (step > 0 ? upward : downward) += step;
-    }
-    const double possible = missing > 0 ? upward : downward;
-    if (possible == 0) continue;
-    const double share = std::clamp(missing / possible, 0.0, 1.0);
-    for (std::size_t i = 0; i < points; ++i) {
-      if (!changed[i]) continue;
-      const double step = low[i * components + k] - mass[i] * values[i * components + k];
-      if ((step > 0) == (missing > 0)) values[i * components + k] += share * step / mass[i];
+      sum.mass[i] += share.mass[v];
+      if (share.changed[v]) sum.changed[i] = true;
+      for (std::size_t k = 0; k < components(); ++k)
+        sum.moments[i * components() + k] += share.moments[v * components() + k];
     }
   }
+
+  /// Moves the values of a component at points that have changed toward the lumped projection.
+  void correct(const Share& sum, std::size_t k, std::vector<double>& values) const {
+    const auto visit = [&](const auto& move) {
+      for (std::size_t i = 0; i < sum.mass.size(); ++i) {
+        if (!sum.changed[i]) continue;
+        double& value = values[i * components() + k];
+        move(sum.moments[i * components() + k] - sum.mass[i] * value, sum.mass[i], value);
+      }
+    };
+    double missing = 0, upward = 0, downward = 0;
+    visit([&](double step, double /*mass*/, double& /*value*/) {
+      missing += step;
+      (step > 0 ? upward : downward) += step;
+    });
+    const double possible = missing > 0 ? upward : downward;
+    if (possible == 0) return;
+    const double share = std::clamp(missing / possible, 0.0, 1.0);
+    visit([&](double step, double mass, double& value) {
+      if ((step > 0) == (missing > 0)) value += share * step / mass;
+    });
+  }
+
+  IdVector<SubdomainId, Share> shares_;
+};
+
+std::unique_ptr<OnItsWay> on_its_way(const Lineage& lineage, const ConservedField& field) {
+  switch (field.place) {
+    case FieldPlace::kTriangles:
+      return std::make_unique<AtTriangles>(lineage, field);
+    case FieldPlace::kCorners:
+      return std::make_unique<AtCorners>(lineage, field);
+    case FieldPlace::kPoints:
+      break;
+  }
+  return std::make_unique<AtPoints>(lineage, field);
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> conserved(const Lineage& lineage, std::span<const ConservedField> fields) {
+  std::vector<std::unique_ptr<OnItsWay>> under_way;
+  for (const ConservedField& field : fields) under_way.push_back(on_its_way(lineage, field));
+  if (!fields.empty())
+    lineage.visit_parts([&](SubdomainId s, const Lineage::Change& change) {
+      const Overlaps overlaps(change);
+      for (const auto& field : under_way) field->take(s, change, overlaps);
+    });
+  std::vector<std::vector<double>> values;
+  for (const auto& field : under_way) values.push_back(field->values());
   return values;
 }
 

@@ -24,15 +24,16 @@ Field make_field(const Mesh& mesh, const std::string& name, std::vector<double> 
 }
 
 Fields carried(const Fields& fields, const Lineage& lineage) {
+  std::vector<ConservedField> conserving;
+  for (const auto& [name, field] : fields)
+    if (field.how == Transfer::kConserve) conserving.push_back({field.place, field.components, field.values});
+  std::vector<std::vector<double>> values = conserved(lineage, conserving);
   Fields next;
-  for (const auto& [name, field] : fields) {
-    const bool at_points = field.place == FieldPlace::kPoints;
-    const auto transfer = !at_points
-                              ? (field.place == FieldPlace::kCorners ? conserved_at_corners : conserved_at_triangles)
-                          : field.how == Transfer::kConserve ? conserved_at_points
-                                                             : interpolated_at_points;
-    next[name] = {field.place, field.how, field.components, transfer(lineage, field.values, field.components)};
-  }
+  std::size_t taken = 0;
+  for (const auto& [name, field] : fields)
+    next[name] = {field.place, field.how, field.components,
+                  field.how == Transfer::kConserve ? std::move(values[taken++])
+                                                   : interpolated_at_points(lineage, field.values, field.components)};
   return next;
 }
 
