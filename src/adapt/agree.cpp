@@ -73,7 +73,6 @@ struct Cut {
   /// Lengths deeper within a piece count as those between the corners of a triangle do.
   void operator()(const Point& a, std::uint64_t from, const Point& b, std::uint64_t to, dyadic::Path path) const {
     constexpr int kDeepest = 40;
-    constexpr double kBetween = 1.11;
     const Point m = midpoint(a, b);
     const std::uint64_t middle = dyadic::position(path);
     const double least = std::min({lengths.at(from), lengths.at(middle), lengths.at(to)});

@@ -16,8 +16,7 @@ TriangleId find_around(const Triangulation& mesh, TriangleId t, VertexId v, cons
   for (const bool forward : {true, false})
     for (TriangleId u = t;;) {
       if (has_corners(u)) return u;
-      const auto& vertex = mesh.triangles[u].vertex;
-      const int i = vertex[0] == v ? 0 : vertex[1] == v ? 1 : 2;
+      const int i = mesh.corner_of(u, v);
       const HalfEdge beyond = mesh.across(half_edge(u, forward ? next(i) : previous(i)));
       if (beyond == kNone) break;
       u = triangle_of(beyond);

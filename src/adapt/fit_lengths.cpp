@@ -80,7 +80,7 @@ class GrowthLimit {
   LengthsOfParts& lengths_;
   std::int32_t threads_;
   IdVector<SubdomainId, std::vector<VertexId>> border_;
-  std::vector<double> least_;  // of all copies, at points
+  std::vector<double> least_;  // the least of all copies, at points
 };
 
 double triangles_asked(const Generation& present, const QualityBounds& bounds, const LengthsOfParts& lengths,

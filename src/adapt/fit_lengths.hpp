@@ -13,7 +13,7 @@ namespace driftmesh::adapt {
 /// What the next generation is to meet, besides other bounds.
 struct Wanted {
   LengthsOfParts lengths;              ///< at the vertices of all present parts
-  const SizeField* between = nullptr;  ///< of the whole domain; null: lengths are linear on the present triangles
+  const SizeField* between = nullptr;  ///< sizes in the whole domain; null: lengths are linear on the present triangles
   double scale = 1;                    ///< factor that made them fit, for AdaptiveOptions::most_triangles
 };
 

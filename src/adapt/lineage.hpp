@@ -39,9 +39,9 @@ class Lineage {
     const Triangulation& old_mesh;
     const Triangulation& new_mesh;
     const IdVector<TriangleId, TriangleId>& same;   ///< see Descent; empty if the meshes are the same
-    IdVector<TriangleId, std::int32_t> old_number;  ///< of each triangle in the whole mesh
+    IdVector<TriangleId, std::int32_t> old_number;  ///< the number of each triangle in the whole mesh
     IdVector<TriangleId, std::int32_t> new_number;
-    const IdVector<VertexId, std::int32_t>& old_place;  ///< of each vertex among all points
+    const IdVector<VertexId, std::int32_t>& old_place;  ///< where each vertex is among all points
     const IdVector<VertexId, std::int32_t>& new_place;
   };
   /// Calls visit for each subdomain, for several at once.
@@ -63,7 +63,7 @@ class Lineage {
   const Generation& after_;
   std::int32_t threads_;
   IdVector<SubdomainId, Descent> descents_;  // empty where the part is the same
-  std::vector<SubdomainId> owner_;           // of each new point
+  std::vector<SubdomainId> owner_;           // the subdomain of each new point
 };
 
 }  // namespace driftmesh::adapt

@@ -10,9 +10,6 @@
 namespace driftmesh::adapt {
 namespace {
 
-/// A triangle may be this much longer than the least length between its corners and its centroid.
-constexpr double kBetween = 1.11;
-
 double longest_edge(const CornerPoints& t) {
   return std::sqrt(
       std::max({squared_distance(t[0], t[1]), squared_distance(t[1], t[2]), squared_distance(t[2], t[0])}));

@@ -14,6 +14,9 @@ namespace driftmesh::adapt {
 /// One length for each vertex of a triangulation.
 using Lengths = GrowingArray<double, VertexId>;
 
+/// A triangle may be this much longer than the least length between its corners and its centroid.
+inline constexpr double kBetween = 1.11;
+
 /// Lengths at the vertices of a subdomain's mesh, linear on its triangles: what the next mesh of the subdomain is to
 /// have. Between the corners and the centroid of a triangle, 1.11 times the least length counts, as for other fields.
 class LinearLengths final : public SizeField {

@@ -5,20 +5,16 @@
 #include <limits>
 
 #include "geometry/box.hpp"
+#include "geometry/segment_geometry.hpp"
 #include "geometry/triangle_geometry.hpp"
 
 namespace driftmesh::adapt {
 namespace {
 
-/// The place of p along the edge from a to b, 0 to 1 between its ends.
+/// The place of p along the line through a and b, 0 to 1 between them.
 double along(const Point& a, const Point& b, const Point& p) {
   const double dx = b.x - a.x, dy = b.y - a.y;
   return ((p.x - a.x) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy);
-}
-
-double squared_distance_to_edge(const Point& a, const Point& b, const Point& p) {
-  const double t = std::clamp(along(a, b, p), 0.0, 1.0);
-  return squared_distance(p, {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)});
 }
 
 }  // namespace
@@ -103,7 +99,7 @@ Locator::Stop Locator::search(const Point& p) const {
     if (stop.inside()) return stop;
     for (int i = 0; i < 3; ++i) {
       if (mesh_.across(half_edge(t, i)) != kNone) continue;
-      const double distance = squared_distance_to_edge(mesh_.corner(t, next(i)), mesh_.corner(t, previous(i)), p);
+      const double distance = squared_distance_to_segment(p, mesh_.corner(t, next(i)), mesh_.corner(t, previous(i)));
       if (distance >= least) continue;
       least = distance;
       nearest = stop;
@@ -135,7 +131,7 @@ Locator::Place Locator::place_at(const Stop& stop, const Point& p) const {
   const HalfEdge other = mesh_.across(edge);
   const HalfEdge chosen = other != kNone && triangle_of(other) < stop.triangle ? other : edge;
   const Point &a = mesh_.points[mesh_.edge_start(chosen)], &b = mesh_.points[mesh_.edge_end(chosen)];
-  const double t = std::clamp(along(a, b, p), 0.0, 1.0);
+  const double t = nearest_on_segment(p, a, b);
   place.triangle = triangle_of(chosen);
   place.weight[next(index_of(chosen))] = 1 - t;
   place.weight[previous(index_of(chosen))] = t;

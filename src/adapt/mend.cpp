@@ -90,8 +90,7 @@ class Mending {
     for (const VertexId v : ids_of(mesh_.points)) {
       if (mesh_.origin[v] != kFree || !(lengths_[v] > kGrown * made_for_[v])) continue;
       const TriangleId t = triangle_at_[v];
-      const auto& corners = mesh_.triangles[t].vertex;
-      const HalfEdge h = half_edge(t, corners[0] == v ? 0 : corners[1] == v ? 1 : 2);
+      const HalfEdge h = half_edge(t, mesh_.corner_of(t, v));
       if (is_dispensable(v, h) && remove_vertex(mesh_, h, changed_)) note_changes();
     }
   }

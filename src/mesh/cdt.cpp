@@ -114,7 +114,7 @@ class SegmentRecovery {
     TriangleId t = first;
     do {
       const auto& v = mesh_.triangles[t].vertex;
-      const int i = corner_of(t, a);
+      const int i = mesh_.corner_of(t, a);
       const VertexId s = v[next(i)], e = v[previous(i)];
       if (s == b) return half_edge(t, previous(i));
       const double right = orient2d(at(a), at(s), at(b));
@@ -140,17 +140,12 @@ class SegmentRecovery {
     }
   }
 
-  int corner_of(TriangleId t, VertexId v) const {
-    const auto& vertex = mesh_.triangles[t].vertex;
-    return vertex[0] == v ? 0 : vertex[1] == v ? 1 : 2;
-  }
-
   /// The triangle after `t` counterclockwise around u. The fan around a corner of the box is open: from its last
   /// triangle to its first.
   TriangleId turn(TriangleId t, VertexId u) const {
-    HalfEdge h = mesh_.across(half_edge(t, next(corner_of(t, u))));
+    HalfEdge h = mesh_.across(half_edge(t, next(mesh_.corner_of(t, u))));
     if (h != kNone) return triangle_of(h);
-    while ((h = mesh_.across(half_edge(t, previous(corner_of(t, u))))) != kNone) t = triangle_of(h);
+    while ((h = mesh_.across(half_edge(t, previous(mesh_.corner_of(t, u))))) != kNone) t = triangle_of(h);
     return t;
   }
 
@@ -158,7 +153,7 @@ class SegmentRecovery {
     const TriangleId first = incident_[u];
     TriangleId t = first;
     do {
-      const int i = corner_of(t, u);
+      const int i = mesh_.corner_of(t, u);
       if (mesh_.triangles[t].vertex[next(i)] == w) return half_edge(t, previous(i));
       t = turn(t, u);
     } while (t != first);

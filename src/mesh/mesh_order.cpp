@@ -8,6 +8,7 @@
 #include "driftmesh/error.hpp"
 #include "driftmesh/id_vector.hpp"
 #include "geometry/hilbert_sort.hpp"
+#include "sizing/point_neighbors.hpp"
 
 namespace driftmesh {
 namespace {
@@ -21,38 +22,10 @@ Numbers inverse(const Numbers& numbers) {
   return result;
 }
 
-/// The neighbors of each point. One across an edge between two triangles is listed twice.
-class PointGraph {
- public:
-  explicit PointGraph(const Mesh& mesh) : first_(mesh.points.size() + 1, 0) {
-    for (const auto& triangle : mesh.triangles)
-      for (const std::int32_t v : triangle) first_[to_index(v) + 1] += 2;
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    list_.resize(to_index(first_.back()));
-    std::vector<std::int64_t> next(first_.begin(), first_.end() - 1);
-    for (const auto& [a, b, c] : mesh.triangles)
-      for (const auto& [v, one, other] : {std::array{a, b, c}, std::array{b, c, a}, std::array{c, a, b}}) {
-        list_[to_index(next[to_index(v)]++)] = one;
-        list_[to_index(next[to_index(v)]++)] = other;
-      }
-  }
-
-  [[nodiscard]] std::int32_t points() const { return static_cast<std::int32_t>(first_.size() - 1); }
-  [[nodiscard]] std::int64_t degree(std::int32_t v) const { return first_[to_index(v) + 1] - first_[to_index(v)]; }
-  template <class Visit>
-  void for_each_neighbor(std::int32_t v, const Visit& visit) const {
-    for (std::int64_t i = first_[to_index(v)]; i < first_[to_index(v) + 1]; ++i) visit(list_[to_index(i)]);
-  }
-
- private:
-  std::vector<std::int64_t> first_;  // of each point in list_
-  std::vector<std::int32_t> list_;
-};
-
 /// Levels of points around a start. The neighbors that a point meets first follow each other by degree, then by number.
 class Levels {
  public:
-  explicit Levels(const PointGraph& graph) : graph_(graph), seen_in_(to_index(graph.points()), 0) {}
+  explicit Levels(const PointNeighbors& graph) : graph_(graph), seen_in_(to_index(graph.points()), 0) {}
 
   /// Appends all points that are connected with `start` to `order`; the number of levels.
   std::int32_t grow(std::int32_t start, Numbers& order) {
@@ -65,11 +38,10 @@ class Levels {
       last_level_ = begin;
       for (const std::size_t end = order.size(); begin < end; ++begin) {
         const auto met = static_cast<std::ptrdiff_t>(order.size());
-        graph_.for_each_neighbor(order[begin], [&](std::int32_t v) {
+        for (const std::int32_t v : graph_.of(order[begin]))
           if (std::exchange(seen_in_[to_index(v)], search_) != search_) order.push_back(v);
-        });
         std::sort(order.begin() + met, order.end(), [&](std::int32_t a, std::int32_t b) {
-          return std::pair(graph_.degree(a), a) < std::pair(graph_.degree(b), b);
+          return std::pair(graph_.of(a).size(), a) < std::pair(graph_.of(b).size(), b);
         });
       }
     }
@@ -81,7 +53,7 @@ class Levels {
   [[nodiscard]] bool is_seen(std::int32_t v) const { return seen_in_[to_index(v)] != 0; }
 
  private:
-  const PointGraph& graph_;
+  const PointNeighbors& graph_;
   std::vector<std::int32_t> seen_in_;  // the last search that has met each point
   std::int32_t search_ = 0;
   std::size_t last_level_ = 0;
@@ -90,7 +62,7 @@ class Levels {
 /// Each connected part from a point that is far from another one: the point of least degree in the last level around
 /// the last such point, as long as levels become more.
 Numbers reverse_cuthill_mckee(const Mesh& mesh) {
-  const PointGraph graph(mesh);
+  const PointNeighbors graph(mesh.points.size(), mesh.triangles);
   Levels levels(graph);
   Numbers order;
   order.reserve(mesh.points.size());
@@ -102,8 +74,9 @@ Numbers reverse_cuthill_mckee(const Mesh& mesh) {
       const std::int32_t count = levels.grow(start, order);
       if (count <= most) break;
       most = count;
-      start = *std::min_element(order.begin() + static_cast<std::ptrdiff_t>(levels.last_level()), order.end(),
-                                [&](std::int32_t a, std::int32_t b) { return graph.degree(a) < graph.degree(b); });
+      start =
+          *std::min_element(order.begin() + static_cast<std::ptrdiff_t>(levels.last_level()), order.end(),
+                            [&](std::int32_t a, std::int32_t b) { return graph.of(a).size() < graph.of(b).size(); });
       order.resize(begin);
     }
   }

@@ -59,6 +59,11 @@ struct Triangulation {
   [[nodiscard]] std::size_t live_triangles() const { return triangles.size() - free_triangles.size(); }
   [[nodiscard]] std::size_t live_vertices() const { return points.size() - free_vertices.size(); }
   [[nodiscard]] const Point& corner(TriangleId t, int i) const { return points[triangles[t].vertex[i]]; }
+  /// The corner at which `t` has vertex v.
+  [[nodiscard]] int corner_of(TriangleId t, VertexId v) const {
+    const auto& vertex = triangles[t].vertex;
+    return vertex[0] == v ? 0 : vertex[1] == v ? 1 : 2;
+  }
   [[nodiscard]] VertexId apex(HalfEdge h) const { return triangles[triangle_of(h)].vertex[index_of(h)]; }
   [[nodiscard]] VertexId edge_start(HalfEdge h) const { return triangles[triangle_of(h)].vertex[next(index_of(h))]; }
   [[nodiscard]] VertexId edge_end(HalfEdge h) const { return triangles[triangle_of(h)].vertex[previous(index_of(h))]; }

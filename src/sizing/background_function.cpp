@@ -113,7 +113,7 @@ Interval BackgroundFunction::Piece::over(const Box& other) const {
   const double change = (std::fabs(gradient.x) * (inside.high.x - inside.low.x) +
                          std::fabs(gradient.y) * (inside.high.y - inside.low.y)) /
                         2;
-  const double rounding = 0x1p-30 * most;  // of slopes of slivers
+  const double rounding = 0x1p-30 * most;  // slopes of slivers are rounded that much
   const double low = std::max(least, middle - change - rounding);
   const double high = std::min(most, middle + change + rounding);
   return low <= high ? rounded_out(low, high) : rounded_out(least, most);
