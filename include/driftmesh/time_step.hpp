@@ -23,7 +23,7 @@ enum class CourantLength : std::uint8_t {
 struct CourantRule {
   double step = 0;                    ///< seconds; 0: none is asked for
   double bound = defaults::kCourant;  ///< largest Courant number, > 0
-  double speed = 0;                   ///< of a current that waves travel with, in m/s, >= 0
+  double speed = 0;                   ///< the speed of a current that waves travel with, in m/s, >= 0
   CourantLength length = CourantLength::kEdge;
 };
 

@@ -72,6 +72,12 @@ void require_known(const ConvertOptions& options, const Mesh& mesh) {
     if (!regions.contains(region)) fail(fmt::format("region {}", region), "--region-name");
 }
 
+std::vector<std::string> words_of_orders() {
+  std::vector<std::string> words;
+  for (const auto& [order, word] : kMeshOrders) words.emplace_back(word);
+  return words;
+}
+
 void run_convert(const ConvertOptions& options) {
   FileRegistry files;
   register_mesh_input(files, options.input, "INPUT", options.reading);
@@ -122,7 +128,7 @@ cli::Command convert_command() {
                 .value = "ORDER",
                 .help = "Order of points and triangles: given, hilbert (along a Hilbert curve) or rcm (reverse "
                         "Cuthill-McKee, for solvers: a small bandwidth)",
-                .choices = {"given", "hilbert", "rcm"},
+                .choices = words_of_orders(),
                 .take = cli::into(options->order)},
                {.name = "open-boundary",
                 .value = "MARKERS",

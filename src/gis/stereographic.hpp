@@ -26,8 +26,8 @@ class Stereographic {
 
  private:
   Point center_;
-  double sine_, cosine_;  // of the center's conformal latitude
-  double diameter_;       // of the sphere, so that the center is true to scale
+  double sine_, cosine_;  // those of the center's conformal latitude
+  double diameter_;       // the sphere's, so that the center is true to scale
 };
 
 }  // namespace driftmesh

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <map>
 #include <optional>
 #include <set>
@@ -8,6 +7,7 @@
 #include <utility>
 
 #include "io/byte_cursor.hpp"
+#include "io/number_of_word.hpp"
 #include "io/read_checks.hpp"
 #include "io/su2_format.hpp"
 #include "pslg/names.hpp"
@@ -185,13 +185,10 @@ class Su2Parser {
   Number take(const char* what) {
     const std::string_view word = take_word(line_);
     line_ = trimmed(line_);
-    const char* const begin = word.data() + (word.starts_with('+') ? 1 : 0);
-    Number value{};
-    const auto [end, error] = std::from_chars(begin, word.data() + word.size(), value);
     if (word.empty()) fail(std::string("lacks ") + what);
-    if (error != std::errc() || end != word.data() + word.size())
-      fail("has '" + std::string(word.substr(0, 30)) + "' in place of " + what);
-    return value;
+    const auto value = number_of<Number>(word);
+    if (!value) fail("has '" + std::string(word.substr(0, 30)) + "' in place of " + what);
+    return *value;
   }
 
   [[nodiscard]] std::string start_of_line() const { return std::string(line_.substr(0, 30)); }

@@ -1,15 +1,14 @@
 #pragma once
 
-#include <charconv>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "driftmesh/error.hpp"
 #include "io/byte_cursor.hpp"
+#include "io/number_of_word.hpp"
 #include "io/read_checks.hpp"
 #include "io/tag_comments.hpp"
 
@@ -40,13 +39,11 @@ class WordCursor {
   template <class Number>
   Number number(const char* what) {
     const std::string_view text = word();
-    const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
-    const char* const end = text.data() + text.size();
-    Number value{};
-    if (const auto [stop, error] = std::from_chars(begin, end, value); error != std::errc() || stop != end)
+    const auto value = number_of<Number>(text);
+    if (!value)
       fail(text.empty() ? std::string("ends where ") + what + " is expected"
                         : "has '" + std::string(text.substr(0, 30)) + "' in place of " + what);
-    return value;
+    return *value;
   }
 
   /// A number of things that take at least two characters each.

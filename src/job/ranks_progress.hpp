@@ -29,7 +29,7 @@ class RanksProgress {
   bool hear();
 
   std::unique_ptr<Channel> channel_;
-  std::vector<std::int64_t> triangles_;  // of each rank
+  std::vector<std::int64_t> triangles_;  // the triangles of each rank
   std::int32_t done_ = 0;                // ranks
   double last_ = 0;                      // when it was told
 };

@@ -32,29 +32,6 @@ double doubled_area(const std::vector<Point>& points, const Pslg::Ring& ring) {
   return sum;
 }
 
-/// Triangles that can be reached from each other across edges have the same number.
-std::vector<std::int32_t> components(const TriangleNeighbors& neighbors) {
-  std::vector<std::int32_t> component(neighbors.size(), -1);
-  std::vector<std::int32_t> open;
-  std::int32_t count = 0;
-  for (std::size_t first = 0; first < neighbors.size(); ++first) {
-    if (component[first] >= 0) continue;
-    component[first] = count;
-    open.push_back(static_cast<std::int32_t>(first));
-    while (!open.empty()) {
-      const std::int32_t t = open.back();
-      open.pop_back();
-      for (const std::int32_t n : neighbors[t])
-        if (n >= 0 && component[n] < 0) {
-          component[n] = count;
-          open.push_back(n);
-        }
-    }
-    ++count;
-  }
-  return component;
-}
-
 /// Joins the directed boundary edges of one component to rings. As many edges leave each of their points as arrive.
 std::vector<Pslg::Ring> rings_of(const std::vector<Pair>& edges) {
   std::unordered_map<std::int32_t, std::vector<std::int32_t>> leaving;
@@ -103,7 +80,7 @@ std::vector<Pslg::Polygon> OldMesh::outline() const {
   mesh.points = tables_.points;
   mesh.triangles = triangles_;
   const TriangleNeighbors neighbors = triangle_neighbors(mesh);
-  const std::vector<std::int32_t> component = components(neighbors);
+  const std::vector<std::int32_t> component = parts_between_edges(mesh);
   std::vector<std::vector<Pair>> borders(*std::ranges::max_element(component) + 1);
   for (std::size_t t = 0; t < triangles_.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i)

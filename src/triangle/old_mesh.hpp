@@ -52,7 +52,7 @@ class AreaField final : public SizeField {
 
  private:
   const OldMesh& mesh_;
-  std::vector<double> length_;  // of each triangle
+  std::vector<double> length_;  // what each triangle asks for
 };
 
 }  // namespace driftmesh::triangle

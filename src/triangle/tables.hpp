@@ -46,7 +46,7 @@ struct Voronoi {
   std::vector<Point> points;
   std::vector<double> point_attributes;  ///< as many for each point as the mesh has, extended from its triangle
   std::vector<Pair> edges;               ///< the triangles beside each edge; the second is -1 for a ray to infinity
-  std::vector<Point> directions;         ///< of rays; (0, 0) for all other edges
+  std::vector<Point> directions;         ///< where rays go; (0, 0) for all other edges
 };
 
 }  // namespace driftmesh::triangle

@@ -194,7 +194,7 @@ TEST_CASE("strings are chains that pass no node twice, and cover the boundary on
     std::ranges::shuffle(mesh.edges, random);
     std::vector<std::string> warnings;
     const auto warn = [&](const std::string& text) {
-      if (text.find("two nodes") == std::string::npos) warnings.push_back(text);  // of short open boundaries
+      if (text.find("two nodes") == std::string::npos) warnings.push_back(text);  // short open boundaries are told, too
     };
     write_mesh(mesh, path, {.warn = warn});
     const auto strings = strings_in(file_bytes(path));
