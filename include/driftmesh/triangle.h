@@ -33,6 +33,7 @@ extern "C" {
  *
  * An output list that is NULL on entry is allocated, and is the caller's to free by trifree(); any other is written to,
  * and must have room. holelist and regionlist of an output are the pointers of the input. */
+/* NOLINTNEXTLINE(readability-identifier-naming): as programs call it */
 struct triangulateio {
   REAL* pointlist;          /* in, out: x, y */
   REAL* pointattributelist; /* in, out: numberofpointattributes for each point */

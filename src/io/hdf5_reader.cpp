@@ -129,7 +129,7 @@ class Hdf5Reader {
       return;
     std::string text(H5Tget_size(type.id()), '\0');
     if (H5Aread(words.id(), type.id(), text.data()) < 0) return;
-    text = text.c_str();  // up to the padding
+    text.resize(std::min(text.find('\0'), text.size()));  // without the padding
     if (fault_of_name(text).empty()) mesh_.coordinates = text;
   }
 

@@ -33,8 +33,9 @@ class PvtuFile {
         "  <PUnstructuredGrid GhostLevel=\"");
     sink_.text(arrays.ghost_cells ? "1\">\n" : "0\">\n");
     sink_.text(arrays.numbers ? "    <PPointData GlobalIds=\"global_number\">\n" : "    <PPointData>\n");
-    for_each_point_array(
-        arrays, [&]<class T>(const T*, const char* name, std::int32_t components) { declare<T>(name, components); });
+    for_each_point_array(arrays, [&]<class T>(const T*, const std::string& name, std::int32_t components) {
+      declare<T>(name, components);
+    });
     sink_.text("    </PPointData>\n    <PCellData>\n");
     for_each_cell_array(arrays, [&]<class T>(const T*, const char* name) { declare<T>(name, 1); });
     sink_.text("    </PCellData>\n    <PPoints>\n");

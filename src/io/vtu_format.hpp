@@ -44,7 +44,7 @@ void for_each_point_array(const VtuArrays& arrays, const Visit& visit) {
   constexpr const double* kFloat64 = nullptr;
   if (arrays.point_markers) visit(kInt32, "marker", 1);
   if (arrays.attributes > 0 && arrays.attribute_names.empty()) visit(kFloat64, "attribute", arrays.attributes);
-  for (const std::string& name : arrays.attribute_names) visit(kFloat64, name.c_str(), 1);
+  for (const std::string& name : arrays.attribute_names) visit(kFloat64, name, 1);
   if (arrays.numbers) visit(kInt64, "global_number", 1);
   if (arrays.ghosts) visit(kUInt8, "vtkGhostType", 1);
 }

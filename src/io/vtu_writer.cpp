@@ -53,7 +53,7 @@ struct Counts {
 
 void declare_point_data(VtuFile& file, const VtuArrays& arrays, const Counts& counts) {
   file.header(arrays.numbers ? "      <PointData GlobalIds=\"global_number\">\n" : "      <PointData>\n");
-  for_each_point_array(arrays, [&]<class T>(const T*, const char* name, std::int32_t components) {
+  for_each_point_array(arrays, [&]<class T>(const T*, const std::string& name, std::int32_t components) {
     file.declare<T>(escaped(name), counts.points * components, components);
   });
   file.header("      </PointData>\n");
