@@ -69,9 +69,9 @@ if [[ $properties -gt 0 ]]; then
   DRIFTMESH_SEED=random ctest --preset release -L property --no-tests=error -j "$jobs" --repeat "until-fail:$properties" || result=1
 fi
 if [[ $night == yes ]]; then
-  cmake --preset asan-ubsan -Wno-dev && cmake --build --preset asan-ubsan -j "$jobs"
-  say "Tests of the night under the address and undefined-behavior sanitizers"
-  ctest --preset asan-ubsan -L '^night$' --no-tests=error -j "$jobs" --timeout 600 || result=1
+  cmake --preset asan-ubsan -DDRIFTMESH_SANITIZE_SCOPES=ON -Wno-dev && cmake --build --preset asan-ubsan -j "$jobs"
+  say "Tests of the night, and the long ones, under the address and undefined-behavior sanitizers"
+  ctest --preset asan-ubsan -L '^(night|long)$' --no-tests=error -j "$jobs" --timeout 600 || result=1
 fi
 if [[ $mutants != 0..0 || $meshes != 0..0 ]]; then
   if [[ -z $mutants_program ]]; then
