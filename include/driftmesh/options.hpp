@@ -139,6 +139,8 @@ struct MeshOptions {
     std::vector<double> speeds{};  ///< relative speed of each rank, if known: work is mapped in proportion
     bool map_by_area = false;      ///< map by area instead of expected work: an uneven start, for experiments
     std::int64_t aggregation = defaults::kAggregation;  ///< most split points in one message
+    double silence = 10;  ///< seconds after which a warning names a rank that does not answer
+    double give_up = 0;   ///< seconds after which such a rank ends the job; 0: never
   } ranks{};
 
   /// Subdomains that move between ranks while they are refined.

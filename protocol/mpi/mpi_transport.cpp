@@ -74,6 +74,13 @@ std::string MpiSession::library() {
   return all.substr(0, all.find_first_of(",\n"));
 }
 
+std::string MpiSession::host() {
+  char text[MPI_MAX_PROCESSOR_NAME];
+  int length = 0;
+  MPI_Get_processor_name(text, &length);
+  return {text, to_index(length)};
+}
+
 int MpiSession::ranks_on_this_machine(int communicator) {
   MPI_Comm machine = MPI_COMM_NULL;
   int ranks = 1;

@@ -29,6 +29,8 @@ class MpiSession {
   [[nodiscard]] static std::optional<Rank> launched_as();
   /// Name and version of the MPI library: "Open MPI v4.1.4". Works before MPI is initialized.
   [[nodiscard]] static std::string library();
+  /// What MPI calls the machine of this process.
+  [[nodiscard]] static std::string host();
   /// The number of ranks of the communicator that share this machine's memory. Collective.
   [[nodiscard]] static int ranks_on_this_machine(int communicator);
 

@@ -35,6 +35,7 @@ class CallerWatch final : public job::Watch {
   /// Calls MeshOptions::warning and MeshOptions::progress where they are set.
   explicit CallerWatch(const MeshOptions& options) : options_(options) {}
   void warned(const std::string& warning) override;
+  void stalled(const std::string& why) override { warned(why); }
   /// Throws Cancelled if the caller cancels.
   void refining(std::int64_t triangles, double forecast) override;
 

@@ -48,6 +48,8 @@ void visit_options(Options&& o, job::Request& r, const Visit& visit) {
   visit("mapping.method", "ranks.mapping", o.ranks.mapping, r.mapping.method);
   visit("mapping.speeds", "ranks.speeds", o.ranks.speeds, r.mapping.speeds);
   visit("mapping.by-area", "ranks.map_by_area", o.ranks.map_by_area, r.mapping.by_area);
+  visit("run.silence", "ranks.silence", o.ranks.silence, r.patience.silence);
+  visit("run.give-up", "ranks.give_up", o.ranks.give_up, r.patience.give_up);
   visit("run.aggregation", "ranks.aggregation", o.ranks.aggregation, r.run.aggregation);
 
   auto& b = o.balance;

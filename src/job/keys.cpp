@@ -19,10 +19,22 @@ using Kind = KeyInfo::Kind;
   throw KeyError(key.name, what, next);
 }
 
+/// Like read_number; a number of seconds may end in s, m (minutes) or h.
+bool read_quantity(const KeyInfo& key, std::string text, double& value) {
+  double seconds = 1;
+  if (key.unit == "seconds" && !text.empty())
+    if (const std::size_t unit = std::string_view("smh").find(text.back()); unit != std::string_view::npos) {
+      seconds = std::pow(60, unit);
+      text.pop_back();
+    }
+  if (!read_number(text, key.unit == "bytes", value)) return false;
+  value *= seconds;
+  return true;
+}
+
 double number(const KeyInfo& key, const std::string& text) {
   double value = 0;
-  if (!read_number(text, key.unit == "bytes", value))
-    fail(key, "is '" + text + "'", "give a number, as in 20, 1.5e3 or 5k");
+  if (!read_quantity(key, text, value)) fail(key, "is '" + text + "'", "give a number, as in 20, 1.5e3 or 5k");
   check_range(key, value);
   return value;
 }

@@ -97,6 +97,7 @@ Order in_subdomains(const Asked& asked, const Place& place, Domain&& domain, con
           .pslg = std::move(domain.pslg),
           .sizing = request.sizing,
           .limits = request.limits,
+          .patience = request.patience,
           .shares = speeds,
           .use = use,
           .scratch = request.run.scratch,

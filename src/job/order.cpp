@@ -28,6 +28,7 @@ void transfer_rest(Stream& stream, Fields& order) {
   stream.value(order.sizing.courant_speed);
   stream.value(order.sizing.courant_length);
   stream.value(order.limits);
+  stream.value(order.patience);
   stream.array(order.shares);
   stream.value(order.use);
 }

@@ -30,6 +30,7 @@ struct Order {
   Pslg pslg;  ///< repaired
   Request::Sizing sizing;
   Request::Limits limits;
+  Request::Patience patience;     ///< with ranks that do not answer
   IdVector<Rank, double> shares;  ///< fraction of its time that each rank works, for experiments; empty: all of it
   Use use;                        ///< what the mesh is for
   std::string scratch{};          ///< folder where subdomains sleep; empty: in memory

@@ -47,12 +47,12 @@ RankRun::~RankRun() {
 void RankRun::refine(bool logs, const RankHooks& hooks) {
   team_.meet();  // the clocks of all start together
   channel_ = team_.open();
-  if (!team_.alone()) progress_.emplace(team_);
+  if (!team_.alone()) progress_.emplace(team_, order_.patience);
   by_itself(team_, [&] {
     if (logs) log_.emplace(channel_->transport(), &order_.plan.decomposition);
     run_loop(hooks);
     if (logs) log_->ends(*loop_);
-    if (progress_) progress_->close(loop_->triangles(), [this] { show_progress(false); });
+    if (progress_) progress_->close(loop_->triangles(), [this] { hear_of_others(team_.leads(), false); });
   });
   channel_->close();
   agree_on_failure(team_, failure_);
@@ -75,10 +75,12 @@ void RankRun::run_loop(const RankHooks& hooks) {
 }
 
 /// What the watch throws ends the run as what a slice of work throws does.
-void RankRun::show_progress(bool refines) {
+void RankRun::hear_of_others(bool shows, bool refines) {
+  const std::string silence = progress_->silence();
   if (failure_) return;
   try {
-    watch_.refining_on_all(progress_->triangles(), forecast_of(order_.plan));
+    if (!silence.empty()) watch_.stalled(silence);
+    if (shows) watch_.refining_on_all(progress_->triangles(), forecast_of(order_.plan));
   } catch (const std::exception&) {
     failure_ = std::current_exception();
     if (refines) loop_->abandon();
@@ -86,7 +88,11 @@ void RankRun::show_progress(bool refines) {
 }
 
 protocol::StepResult RankRun::step_or_abandon() {
-  if (progress_ && progress_->tell(loop_->triangles())) show_progress(true);
+  if (progress_) {
+    const auto next = loop_->next();
+    const std::string doing = next ? "refining subdomain " + to_string(*next) : std::string("waiting for other ranks");
+    hear_of_others(progress_->tell(loop_->triangles(), doing), true);
+  }
   // Not at each poll of an idle rank: a look at its memory takes longer.
   const bool changed = std::exchange(triangles_, loop_->triangles()) != loop_->triangles();
   const bool by_memory = changed && !loop_->abandoned() && memory_is_full(limits_, triangles_);

@@ -61,7 +61,7 @@ class RankRun {
   [[nodiscard]] RankLoop::Observers observers(const RankHooks& hooks);
   [[nodiscard]] std::function<void(const Subdomain&)> inspection();
   void run_loop(const RankHooks& hooks);
-  void show_progress(bool refines);
+  void hear_of_others(bool shows, bool refines);
   [[nodiscard]] protocol::StepResult step_or_abandon();
   [[nodiscard]] std::exception_ptr stopped(bool by_memory) const;
 

@@ -3,35 +3,51 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "job/request.hpp"
 #include "job/team.hpp"
 
 namespace driftmesh::job {
 
-/// How many triangles all ranks have, as rank 0 knows it while they refine: each tells it a few times a second, on a
-/// channel of their own.
+/// What ranks tell each other while they refine, a few times a second, on a channel of their own: rank 0 learns how
+/// many triangles all have, and each rank watches the one before it, rank 0 the last, and names it if it falls silent.
 class RanksProgress {
  public:
   /// Collective.
-  explicit RanksProgress(Team& team);
+  RanksProgress(Team& team, const Request::Patience& patience);
 
-  /// Tells rank 0 that this one has so many, if it is time; on rank 0 hears of the others. Whether there is news to
-  /// show, on rank 0.
-  [[nodiscard]] bool tell(std::int64_t own);
-  /// All of them; on rank 0.
+  /// If it is time, tells that this rank has so many triangles, and what it is `doing` ("refining subdomain 7"), and
+  /// hears of others. Whether there is news to show, on rank 0.
+  [[nodiscard]] bool tell(std::int64_t own, const std::string& doing);
+  /// A line about the rank that this one watches: that it has fallen silent, doing what since when and on which host,
+  /// at most once in each doubling of its silence, or that it answers again. Empty: nothing new. Throws Error with such
+  /// a line when patience is at its end.
+  [[nodiscard]] std::string silence();
+  /// All triangles; on rank 0.
   [[nodiscard]] std::int64_t triangles() const;
 
-  /// This rank is done with so many. Waits for all others, and calls show() on rank 0 when there is news. Collective.
-  void close(std::int64_t own, const std::function<void()>& show);
+  /// This rank is done with so many. Waits for the rank that it watches, rank 0 for all, and calls `news` when there
+  /// may be some. Collective.
+  void close(std::int64_t own, const std::function<void()>& news);
 
  private:
-  bool hear();
+  void hear();
+  void send(std::int64_t own, bool is_done);
 
   std::unique_ptr<Channel> channel_;
+  Rank watched_, watcher_;
+  std::string name_;  // of the watched rank, and its host
+  Request::Patience patience_;
   std::vector<std::int64_t> triangles_;  // the triangles of each rank
-  std::int32_t done_ = 0;                // ranks
-  double last_ = 0;                      // when it was told
+  std::int32_t done_ = 0;                // ranks that rank 0 has heard of
+  double told_;                          // when this rank last told
+  double heard_;                         // when the watched one was last heard
+  double next_line_;                     // the silence at which it is named next
+  bool is_named_ = false;
+  bool is_done_ = false;               // the watched one
+  std::string doing_, watched_doing_;  // with the time of day since when
 };
 
 }  // namespace driftmesh::job

@@ -129,6 +129,12 @@ struct Request {
     std::string costs;  ///< a file; empty: those of the reference machine
   } cluster;
 
+  /// How long a rank may say nothing, in seconds.
+  struct Patience {
+    double silence = 10;  ///< then it is named
+    double give_up = 0;   ///< then the run ends; 0: never
+  } patience;
+
   struct Run {
     Method method = Method::kCoupled;
     Presplit presplit = Presplit::kAuto;

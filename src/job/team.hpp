@@ -40,6 +40,8 @@ class Team {
   [[nodiscard]] virtual std::int32_t ranks() const = 0;
   [[nodiscard]] bool leads() const { return rank() == Rank{0}; }
   [[nodiscard]] bool alone() const { return ranks() == 1; }
+  /// What this rank's machine is called.
+  [[nodiscard]] virtual std::string host() const = 0;
   /// The number of ranks that share this machine's memory.
   [[nodiscard]] virtual int ranks_on_machine() const = 0;
 

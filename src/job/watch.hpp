@@ -38,7 +38,7 @@ class Watch {
   virtual void refining_on_all(std::int64_t /*triangles*/, double /*forecast*/) {}
   /// The file at `path` is about to be written, within a stage.
   virtual void writing(const std::string& /*path*/) {}
-  /// Nothing has moved on this rank for a minute.
+  /// Nothing has moved on this rank for a minute, or another one does not answer.
   virtual void stalled(const std::string& /*why*/) {}
 
   /// Calls warned(), and keeps the warning.

@@ -102,6 +102,8 @@ class RankLoop {
   [[nodiscard]] std::int64_t interface_splits() const { return interface_splits_; }
   /// Results of this rank so far.
   [[nodiscard]] RankOutcome outcome() const;
+  /// The subdomain that step() works on next, if any.
+  [[nodiscard]] std::optional<SubdomainId> next() const { return agenda_.first(); }
   /// Whether there is work here, or something that will become work.
   [[nodiscard]] bool at_work() const;
 

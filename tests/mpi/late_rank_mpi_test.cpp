@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <chrono>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -42,11 +43,26 @@ class StartingGun {
     if (slices == kHeadStart && transport_.rank() == next_in_ring(late_, transport_.ranks()))
       transport_.send(late_, {});
   }
+  void fire() { transport_.send(late_, {}); }
   void close() { transport_.close(); }
 
  private:
   MpiTransport transport_;
   Rank late_;
+};
+
+/// Keeps what is said of ranks that do not answer, and fires at the first line.
+class Waiting final : public job::Watch {
+ public:
+  explicit Waiting(StartingGun& gun) : gun_(gun) {}
+  void stalled(const std::string& why) override {
+    if (lines.empty()) gun_.fire();
+    lines.push_back(why);
+  }
+  std::vector<std::string> lines;
+
+ private:
+  StartingGun& gun_;
 };
 
 /// What one rank did.
@@ -155,4 +171,29 @@ TEST_CASE("a rank that joins late with one subdomain is given more") {
 TEST_CASE("a rank that joins late with subdomains receives the messages to them") {
   for (const char* policy : {"none", "zoltan", "diffusion", "stealing", "greedy"})
     run_with({policy, last_rank(), LateStart::kShare});
+}
+
+TEST_CASE("a rank that stops in the middle of its work is named by the next one, and the mesh is whole all the same") {
+  job::MpiTeam team(MpiSession::world());
+  const Rank sleeper{team.ranks() - 1};
+  StartingGun gun(sleeper);
+  job::Order order;
+  order.pslg = generate_holes({.columns = 3, .rows = 2});
+  order.plan = testing::late_plan(order.pslg, kTriangles, team.ranks(), {"none", sleeper, LateStart::kShare});
+  order.patience.silence = 0.6;
+  const Pslg input = order.pslg;
+  bool has_slept = false;
+  Waiting watch(gun);
+  job::RankRun run(team, std::move(order), {}, nullptr, watch);
+  run.refine(false, {.through = {}, .before_step = {}, .after_slice = [&](const RankLoop::Slice&) {
+                       if (team.rank() == sleeper && !std::exchange(has_slept, true)) gun.wait();
+                     }});
+  const Mesh mesh = mpi_test::gathered(team, run);
+  gun.close();
+  if (team.leads()) {  // which comes after the last
+    REQUIRE(!watch.lines.empty());
+    CHECK(watch.lines[0].starts_with("rank " + to_string(sleeper) + " on " + team.host() + " has not answered for "));
+    check_mesh(mesh, input, run.plan().bounds);
+  }
+  team.close();
 }

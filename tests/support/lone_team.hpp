@@ -15,6 +15,7 @@ class LoneTeam final : public job::Team {
  public:
   [[nodiscard]] Rank rank() const override { return Rank{0}; }
   [[nodiscard]] std::int32_t ranks() const override { return 1; }
+  [[nodiscard]] std::string host() const override { return "here"; }
   [[nodiscard]] int ranks_on_machine() const override { return 1; }
   [[nodiscard]] Bytes broadcast(Bytes bytes) override { return bytes; }
   [[nodiscard]] std::vector<Bytes> gather(const Bytes& bytes) override { return {bytes}; }

@@ -17,6 +17,7 @@ class MpiTeam final : public Team {
 
   [[nodiscard]] Rank rank() const override { return control_.rank(); }
   [[nodiscard]] std::int32_t ranks() const override { return control_.ranks(); }
+  [[nodiscard]] std::string host() const override { return protocol::MpiSession::host(); }
   [[nodiscard]] int ranks_on_machine() const override { return ranks_on_machine_; }
   [[nodiscard]] Bytes broadcast(Bytes bytes) override;
   [[nodiscard]] std::vector<Bytes> gather(const Bytes& bytes) override;
