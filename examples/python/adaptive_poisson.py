@@ -4,9 +4,9 @@ derivatives at the inner corner. Needs scipy.
 
     adaptive_poisson.py [picture]
 
-In each step the mesh is made anew, with sizes that the jumps of the gradient over its edges ask for. The solution is
-known, so the program can tell the error, and succeeds if the error is inversely proportional to the number of points,
-as it is for smooth solutions; a uniform mesh does not reach that here.
+In each step the mesh is refined where the jumps of the gradient over its edges are large. The solution is known, so the
+program can tell the error, and succeeds if the error is inversely proportional to the number of points, as it is for
+smooth solutions; a uniform mesh does not reach that here.
 """
 
 import sys
@@ -64,17 +64,6 @@ def jumps(mesh, values):
     return sums
 
 
-def sizes(mesh, values, wanted):
-    """Lengths at the points, for about as many triangles as wanted, all with the same share of the error."""
-    areas, _ = gradients(mesh)
-    # The error of a triangle is proportional to the fourth power of its edges, here per area: that is the density to even out.
-    density = (jumps(mesh, values) / areas**2 + 1e-12) ** (1 / 2)
-    area = np.sum(areas * density) / wanted / density
-    lengths = np.full(len(mesh.points), np.inf)
-    np.minimum.at(lengths, mesh.triangles, np.sqrt(4 / np.sqrt(3) * area)[:, None])
-    return driftmesh.size_on_mesh(mesh, lengths, gradation=0.3)
-
-
 def error(mesh, values):
     """The root of the integral of the squared error, by the middles of edges."""
     areas, _ = gradients(mesh)
@@ -86,14 +75,16 @@ def error(mesh, values):
 
 
 def main():
-    mesh = driftmesh.mesh(DOMAIN, max_area=0.02)
+    adaptive = driftmesh.AdaptiveMesh(DOMAIN, max_area=0.02, min_angle=25, gradation=0.3)
     found = []
     for step in range(STEPS):
+        mesh = adaptive.mesh
         values = solve(mesh)
         found.append((len(mesh.points), error(mesh, values)))
         print(f"{found[-1][0]:8,} points: error {found[-1][1]:.2e}")
         if step + 1 < STEPS:
-            mesh = driftmesh.mesh(DOMAIN, min_angle=25, size=sizes(mesh, values, 1.5 * len(mesh.triangles)))
+            indicators = np.sqrt(gradients(mesh)[0] * jumps(mesh, values))  # as large as the errors, but for a factor
+            adaptive.adapt(adaptive.lengths_from_error(indicators, target=0.6 * np.linalg.norm(indicators), order=2))
     if len(sys.argv) > 1:
         driftmesh.plot(mesh, sys.argv[1], color="area")
     points, errors = np.log(np.array(found)[STEPS // 2:]).T

@@ -51,10 +51,10 @@ class InFolder(unittest.TestCase):
         for file in ("bay.png", "solution.png"):
             self.assertTrue(pathlib.Path(file).is_file(), file)
 
-    def run_example(self, name):
+    def run_example(self, name, *arguments):
         if name in NEEDS and importlib.util.find_spec(NEEDS[name]) is None:
             self.skipTest(f"{NEEDS[name]} is not installed")
-        done = subprocess.run([sys.executable, SOURCE / "examples" / "python" / f"{name}.py"], capture_output=True, text=True,
+        done = subprocess.run([sys.executable, SOURCE / "examples" / "python" / f"{name}.py", *arguments], capture_output=True, text=True,
                               timeout=250, check=False)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         return done.stdout
@@ -65,6 +65,9 @@ class InFolder(unittest.TestCase):
 
     def test_adaptive_poisson(self):
         self.assertIn("to the power of -", self.run_example("adaptive_poisson"))
+
+    def test_moving_front(self):
+        self.assertIn("mass:", self.run_example("moving_front", "", "0.05"))
 
     def test_adaptive_dolfinx(self):
         self.assertIn("to the power of -", self.run_example("adaptive_dolfinx"))
