@@ -74,7 +74,7 @@ const std::string kCheckDoc =
     "sizes.\n"
     "If its input is given, it must also cover its domain and have its segments, points, markers and regions. What is\n"
     "wrong is reported, not raised: the report is true if the mesh was accepted.\n\n"
-    "Takes the options of mesh() and looks at those bounds, at snap, hull, simplify, holes and "
+    "Takes the options of mesh() and looks at those bounds, at snap, hull, simplify, close_channels, holes and "
     "threads.";
 
 const std::string kGenerateDoc =

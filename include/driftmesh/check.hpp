@@ -48,7 +48,7 @@ struct CheckReport {
 [[nodiscard]] CheckReport check(const Mesh& mesh, const MeshOptions& options = {});
 
 /// Also checks the mesh against its input, which is repaired first as by mesh(), with options.snap, options.hull,
-/// options.simplify and options.holes: it must cover its domain and nothing else, and have its
+/// options.simplify, options.close_channels and options.holes: it must cover its domain and nothing else, and have its
 /// segments, points, markers, attributes and regions. Polygons are read a second time as they are, unless they are
 /// snapped or simplified. Throws InputError for an input that cannot be repaired.
 ///

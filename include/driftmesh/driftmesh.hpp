@@ -10,6 +10,7 @@
 
 #include "driftmesh/adaptive.hpp"
 #include "driftmesh/check.hpp"
+#include "driftmesh/close_channels.hpp"
 #include "driftmesh/decomposition.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/files.hpp"

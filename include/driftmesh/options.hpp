@@ -65,9 +65,10 @@ enum class MappingMethod {
 /// \endcode
 struct MeshOptions {
   // ---- The domain ----
-  double snap = 0;      ///< vertices and segments at most this far apart are joined (see repair.hpp); 0: none
-  bool hull = false;    ///< whether the convex hull of all points is the outline: its edges become segments
-  double simplify = 0;  ///< by how much lines may move for fewer points (see simplify.hpp); 0: not at all
+  double snap = 0;            ///< vertices and segments at most this far apart are joined (see repair.hpp); 0: none
+  bool hull = false;          ///< whether the convex hull of all points is the outline: its edges become segments
+  double simplify = 0;        ///< by how much lines may move for fewer points (see simplify.hpp); 0: not at all
+  double close_channels = 0;  ///< channels narrower than this are filled (see close_channels.hpp); 0: none
   HoleRule holes = HoleRule::kPoints;
   bool strict = false;  ///< whether warnings are errors: an InputError is thrown
   /// Called for each thing that the author of the input may not have meant, with its place: flaws of polygons,
@@ -87,7 +88,7 @@ struct MeshOptions {
   /// them. Exceptions it throws end the work and propagate.
   std::function<double(const Point&)> size{};
   /// Layers of triangles across every channel of the domain; 0: any number. Triangles get small enough for that,
-  /// however narrow the channel is. See docs/size-expressions.md.
+  /// however narrow the channel is: close_channels sets a limit. See docs/size-expressions.md.
   std::int32_t across = 0;
   /// `size` is also looked up on a grid of this many squares along the longer side of the domain, and around its lowest
   /// points where it is steep: no feature that fills a square is missed. Triangles too small for the grid are judged by

@@ -77,9 +77,9 @@ CheckReport check_against(const Mesh& mesh, const Pslg* input, const MeshOptions
   VerifyOptions asked{.min_angle = request.bounds.angle,
                       .plain = request.bounds,
                       .across = {request.sizing.across, 0},
-                      .given = input,
+                      .given = request.input.close_channels > 0 ? nullptr : input,
                       .moved = request.input.snap + request.input.simplify,
-                      .holes = request.input.holes,
+                      .holes = job::holes_left(request.input),
                       .courant = job::courant_of(request.sizing),
                       .strict_step = request.input.strict,
                       .threads = threads_for(options)};

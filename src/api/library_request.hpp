@@ -16,6 +16,7 @@ void visit_options(Options&& o, job::Request& r, const Visit& visit) {
   visit("input.snap", "snap", o.snap, r.input.snap);
   visit("input.hull", "hull", o.hull, r.input.hull);
   visit("input.simplify", "simplify", o.simplify, r.input.simplify);
+  visit("input.close-channels", "close_channels", o.close_channels, r.input.close_channels);
   visit("input.holes", "holes", o.holes, r.input.holes);
   visit("input.strict", "strict", o.strict, r.input.strict);
   visit("bounds.angle", "min_angle", o.min_angle, r.bounds.angle);

@@ -63,12 +63,12 @@ struct CheckOptions {
 std::optional<InputFile> read_and_repair(CheckOptions& options, const job::Request::Input& asked) {
   if (options.input.empty() && asked.contour.empty()) return std::nullopt;
   InputFile input = asked.contour.empty() ? job::read_domain_file(options.input, asked) : job::contour_input(asked);
-  if (!input.pslg.polygons.empty()) {
+  if (!input.pslg.polygons.empty() && asked.close_channels == 0) {
     options.given = input.pslg;
     options.verify.given = &options.given;
   }
   options.verify.moved = asked.snap + asked.simplify;
-  options.verify.holes = asked.holes;
+  options.verify.holes = job::holes_left(asked);
   const std::string name = asked.contour.empty() ? options.input : job::contour_files(asked);
   const RepairReport repairs = job::clean_input(asked, name, input.pslg);
   if (!options.quiet) print(repairs.summary());

@@ -57,6 +57,10 @@ void add_input(const RunRecord& run, Text out) {
   if (run.request.input.simplify > 0)
     fmt::format_to(out, "             simplified by up to {:g}: without {} and {}\n", run.request.input.simplify,
                    counted(run.simplified.points, "point"), counted(run.simplified.rings, "small ring"));
+  if (run.request.input.close_channels > 0)
+    fmt::format_to(out, "             without {} narrower than {:g}, with an area of {:.6g}{}\n",
+                   counted(run.closed.channels, "channel"), run.request.input.close_channels, run.closed.area,
+                   run.closed.parts > 1 ? fmt::format(": {} parts are left", grouped(run.closed.parts)) : "");
   add_creeks(run, out);
   const char* label = "warnings";
   for (const std::string& warning : run.warnings) {

@@ -156,6 +156,11 @@ Domain read_domain(const Request& request, const Given& given, Watch& watch) {
     keep_original_points(domain.repairs, std::exchange(domain.simplified.original_point, {}));
   }
   add_nested_holes(request.input.holes, domain.pslg);
+  if (const double width = request.input.close_channels; width > 0) {
+    domain.closed =
+        timed(watch, "close channels", [&] { return close_channels(domain.pslg, width, input_name(request)); });
+    keep_original_points(domain.repairs, std::exchange(domain.closed.original_point, {}));
+  }
   open_rasters(request, domain, watch);
   SizeSource source =
       timed(watch, "size", [&] { return size_of(request.sizing, domain.rasters.open, given.size, domain.pslg); });
@@ -174,7 +179,15 @@ Domain read_domain(const Request& request, const Given& given, Watch& watch) {
 RepairReport clean_input(const Request::Input& asked, const std::string& name, Pslg& pslg) {
   RepairReport repairs = repair(pslg, name, repairs_asked(asked));
   if (asked.simplify > 0) simplify(pslg, asked.simplify, name);
+  if (asked.close_channels > 0) {
+    add_nested_holes(asked.holes, pslg);
+    close_channels(pslg, asked.close_channels, name);
+  }
   return repairs;
+}
+
+HoleRule holes_left(const Request::Input& asked) {
+  return asked.close_channels > 0 ? HoleRule::kPoints : asked.holes;
 }
 
 void warn(const Request& request, std::span<const std::string> warnings, Watch& watch) {

@@ -6,6 +6,7 @@
 
 #include "balancer/policy_interface/policy_list.hpp"
 #include "decompose/decomposition.hpp"
+#include "driftmesh/close_channels.hpp"
 #include "driftmesh/pslg.hpp"
 #include "driftmesh/repair.hpp"
 #include "driftmesh/simplify.hpp"
@@ -35,6 +36,7 @@ struct Domain {
   bool from_lonlat = false;  ///< likewise
   RepairReport repairs;
   SimplifyReport simplified;              ///< without its points
+  ClosedChannels closed;                  ///< likewise
   std::vector<Creek> creeks;              ///< too narrow for what is asked for across them, the narrowest first
   Rasters rasters;                        ///< open
   std::shared_ptr<const SizeField> size;  ///< null: none is asked for
@@ -43,13 +45,18 @@ struct Domain {
   std::shared_ptr<const TimeStep> step;  ///< null: none is asked for
 };
 
-/// Reads or generates the domain, repairs and simplifies it, applies the rule for holes, and makes the size field.
+/// Reads or generates the domain, repairs and simplifies it, applies the rule for holes, closes channels, and makes the
+/// size field.
 /// Throws InputError, FileError.
 [[nodiscard]] Domain read_domain(const Request& request, const Given& given, Watch& watch);
 
-/// Does to an input what read_domain does, without telling anybody: repairs and simplifies it. Holes between nested
-/// rings are left for who judges a mesh to find. `name` is for messages. Throws InputError.
+/// Does to an input what read_domain does, without telling anybody: repairs and simplifies it, and closes channels.
+/// Holes between nested rings are left for who judges a mesh to find, unless channels are closed: see holes_left.
+/// `name` is for messages. Throws InputError.
 RepairReport clean_input(const Request::Input& asked, const std::string& name, Pslg& pslg);
+
+/// The rule for the holes of what clean_input() leaves.
+[[nodiscard]] HoleRule holes_left(const Request::Input& asked);
 
 /// The names that a request gives to markers and regions. Throws KeyError for what is no marker or no region.
 [[nodiscard]] Names names_of(const Request::Input& asked);

@@ -88,6 +88,10 @@ Section input_section() {
            "Remove points of lines where these then move by at most this length, and rings that fit into a square "
            "with this side; lines never cross. 0: keep all",
            from(0), option("simplify", "LENGTH"), entry_points(kMeshers | kDecompose | kCheck | kPlot)),
+       key("input.close-channels", &R::input, &R::Input::close_channels,
+           "Fill channels of the domain that are narrower than this width: creeks, straits, gaps between islands. "
+           "After the other changes of the outline. 0: none",
+           from(0), option("close-channels", "WIDTH"), entry_points(kMeshers | kDecompose | kCheck | kPlot)),
        choice("input.holes", &R::input, &R::Input::holes, hole_rules,
               "What is a hole: points (areas with a hole point of the input), or nested (also every second ring of "
               "segments from the outside in, unless it has a region point)",

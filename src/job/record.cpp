@@ -59,6 +59,7 @@ void record_domain(RunRecord& run, const Request& request, const Domain& domain)
   run.input_regions = count_of(domain.pslg.regions.size());
   run.repairs = domain.repairs;
   run.simplified = domain.simplified;
+  run.closed = domain.closed;
   run.creeks = domain.creeks;
   run.min_angle = request.bounds.angle;
   run.sizing = sizing_words(request.sizing);

@@ -24,6 +24,7 @@ struct RunRecord : MeshFacts {
   std::int64_t input_points = 0, input_segments = 0, input_holes = 0, input_regions = 0;  ///< after repair
   RepairReport repairs;                                                                   ///< without its warnings
   SimplifyReport simplified;                                                              ///< without its points
+  ClosedChannels closed;                                                                  ///< likewise
   std::vector<Creek> creeks;                                                              ///< see Domain
   std::vector<std::string> warnings;                                                      ///< about the input
 

@@ -45,6 +45,7 @@ struct Request {
     double snap = 0;                                ///< what is that near is joined; 0: nothing
     bool hull = false;                              ///< whether the convex hull is the outline
     double simplify = 0;                            ///< by how much lines may move; 0: nothing is simplified
+    double close_channels = 0;                      ///< channels narrower than that are filled; 0: none
     HoleRule holes = HoleRule::kPoints;
     bool strict = false;                              ///< warnings about the input are errors
     std::map<std::string, std::string> marker_names;  ///< by the numbers of markers

@@ -24,6 +24,10 @@ Json creeks_json(const RunRecord& run) {
   return list;
 }
 
+Json closed_json(const ClosedChannels& closed) {
+  return {{"channels", closed.channels}, {"area", closed.area}, {"parts", closed.parts}};
+}
+
 Json input_json(const RunRecord& run) {
   const RepairReport& r = run.repairs;
   return {{"file", run.input_file},
@@ -46,6 +50,7 @@ Json input_json(const RunRecord& run) {
             {"largest_move", r.largest_move},
             {"marker_conflicts", r.marker_conflicts.count}}},
           {"simplified", {{"points", run.simplified.points}, {"rings", run.simplified.rings}}},
+          {"closed_channels", closed_json(run.closed)},
           {"narrow_creeks", creeks_json(run)},
           {"warnings", run.warnings}};
 }
