@@ -41,6 +41,13 @@ bool is_section(const std::string& name) {
   return std::ranges::any_of(job::keys(), [&](const job::Key& key) { return key.name.starts_with(name + "."); });
 }
 
+/// The first command that knows a key with these entry points.
+std::string command_with(job::EntryPoints entry_points) {
+  if ((entry_points & job::kMesh) != 0) return "driftmesh mesh";
+  if ((entry_points & job::kExperiment) != 0) return "driftmesh run";
+  return (entry_points & job::kDecompose) != 0 ? "driftmesh decompose" : "driftmesh check";
+}
+
 /// Reads the keys of one file, and those set on the command line, into a request.
 class KeyReader {
  public:
@@ -72,9 +79,14 @@ class KeyReader {
   [[nodiscard]] KeyPath known_key(const Origin& origin, const std::string& name, const YAML::Mark& mark) const {
     KeyPath path = job::find_key(name);
     if (path.key == nullptr) path = job::find_option(name);
-    if (path.key == nullptr || (path.key->entry_points & entry_point_) == 0)
+    if (path.key == nullptr)
       origin.fail(mark, "unknown key '" + name + "'",
                   "the nearest one is '" + job::nearest_key(name, entry_point_) + "'");
+    if ((path.key->entry_points & entry_point_) == 0)
+      origin.fail(mark,
+                  "'" + name + "' is a key of " + command_with(path.key->entry_points) + ", not of " +
+                      command_with(entry_point_),
+                  "remove it");
     return path;
   }
 
