@@ -97,8 +97,8 @@ struct MeshOptions {
   std::int64_t size_resolution = defaults::kSizeResolution;
   /// The time step that triangles are to allow, in steps of `courant.step` seconds, before any bound on their size:
   /// triangles are only split for their size where those that this makes allow it. Coordinates and depths are in
-  /// meters. Where the input or the angle bound keep triangles from allowing it, they stay; with `strict` mesh()
-  /// throws an InputError.
+  /// meters. Where the input or the angle bound keep triangles from allowing it, they stay; with `strict` an
+  /// InputError is thrown, on all ranks.
   CourantRule courant{};
   /// Rasters of the domain by their names: a file each, or several with commas between them.
   std::map<std::string, std::string> rasters{};

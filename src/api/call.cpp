@@ -55,6 +55,14 @@ std::int32_t Call::threads() const {
   return only_this_one ? 1 : job::threads_of(request_);
 }
 
+void Call::require_step(job::Place& place, job::Refined& made, job::RunRecord& record) const {
+  if (!options_.strict || options_.courant.step == 0) return;
+  made.report(record);
+  place.agree([&] {
+    if (place.leads()) job::require_step(record);
+  });
+}
+
 job::Asked Call::asked(job::PlaceKind place, const job::Request& request) const {
   if (options_.balance.own && (place & job::kMany) == 0)
     throw Keyed<Error>("{balance.own} is for many ranks, but this process is alone; remove it");

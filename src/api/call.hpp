@@ -64,6 +64,8 @@ class Call {
   [[nodiscard]] job::Asked asked(job::PlaceKind place) const { return asked(place, request_); }
   /// The same for a request, which outlives the result, that says more than the options do.
   [[nodiscard]] job::Asked asked(job::PlaceKind place, const job::Request& request) const;
+  /// Throws InputError, on all ranks, if the caller is strict and triangles do not allow the time step.
+  void require_step(job::Place& place, job::Refined& made, job::RunRecord& record) const;
 
  private:
   const MeshOptions& options_;

@@ -18,10 +18,7 @@ Mesh mesh(const Pslg& input, const MeshOptions& options) {
     job::RunRecord record;
     const std::unique_ptr<job::Refined> made = job::make(call.asked(here.kind()), here, record, call.watch());
     if (const KeyText why = made->shortfall(true); !why.empty()) throw Keyed<LimitError>(why);
-    if (options.strict && options.courant.step > 0) {
-      made->report(record);
-      job::require_step(record);
-    }
+    call.require_step(here, *made, record);
     Mesh mesh = made->take_piece(call.watch()).mesh;
     mesh.numbers.clear();  // only for points of a piece; this is the whole mesh
     mesh.ranks.clear();

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <new>
 #include <numbers>
@@ -164,6 +165,23 @@ TEST_CASE("errors in the input are thrown on all ranks") {
   MeshOptions of_leader{.subdomains = {.count = 8}};
   if (own_rank() == 0) of_leader.subdomains.given = cut_domain(input, {.subdomains = {.count = 8}});
   CHECK(error_with(of_leader).starts_with("MeshOptions::subdomains.count cannot be combined with a given"));
+}
+
+TEST_CASE("who is strict gets no mesh that does not allow the time step") {
+  const TemporaryFolder folder;
+  const std::string depths = shared_path(folder, "depth.asc");
+  if (own_rank() == 0)
+    std::ofstream(depths) << "ncols 2\nnrows 2\nxllcorner -50\nyllcorner -50\ncellsize 50\n9 9\n9 9\n";
+  MPI_Barrier(MPI_COMM_WORLD);
+  MeshOptions options{.subdomains = {.count = 4}};
+  options.rasters = {{"depth", depths}};
+  options.depth = "depth";
+  options.courant.step = 5;  // 47 m of a wave, ten times the domain
+  const Pslg input = generate_rectangle_hole({});
+  CHECK(mesh_distributed(MPI_COMM_WORLD, input, options).total_triangles > 0);
+  options.strict = true;
+  const std::string said = common_error([&] { (void)mesh_distributed(MPI_COMM_WORLD, input, options); });
+  CHECK(said.find("the time step of 5 s is too long for ") != std::string::npos);
 }
 
 TEST_CASE("a failure on one rank ends the work of all, which can then continue with something else") {

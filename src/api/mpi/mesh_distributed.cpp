@@ -87,7 +87,9 @@ DistributedPiece mesh_on(job::Team& team, Call& call, const MeshOptions& options
   job::require_same(team, settings_of(options, call.request()));
   job::OnRanks ranks(team, call.policies());
   job::RunRecord record;
-  return job::make(call.asked(job::kRanks), ranks, record, call.watch())->take_piece(call.watch());
+  const std::unique_ptr<job::Refined> made = job::make(call.asked(job::kRanks), ranks, record, call.watch());
+  call.require_step(ranks, *made, record);
+  return made->take_piece(call.watch());
 }
 
 }  // namespace
