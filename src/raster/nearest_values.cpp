@@ -6,7 +6,6 @@
 #include "raster/nearest_points.hpp"
 
 namespace driftmesh {
-namespace {
 
 std::int64_t count_missing(const TiledGrid& grid) {
   std::int64_t missing = 0;
@@ -14,8 +13,6 @@ std::int64_t count_missing(const TiledGrid& grid) {
     for (std::int64_t i = 0; i < grid.frame().columns; ++i) missing += std::isnan(grid.at(i, j)) ? 1 : 0;
   return missing;
 }
-
-}  // namespace
 
 std::int64_t fill_from_nearest(TiledGrid& grid, double width, double height) {
   const std::int64_t missing = count_missing(grid);

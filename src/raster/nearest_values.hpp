@@ -6,6 +6,9 @@
 
 namespace driftmesh {
 
+/// How many points of a grid have no value (NaN).
+[[nodiscard]] std::int64_t count_missing(const TiledGrid& grid);
+
 /// Gives every point of a grid without a value (NaN) that of the nearest point that has one (see for_each_nearest).
 /// Returns how many had none; if all, nothing changes.
 std::int64_t fill_from_nearest(TiledGrid& grid, double width, double height);

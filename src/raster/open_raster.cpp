@@ -275,9 +275,9 @@ Box reach_of(const TiledGrid& shares) {
   return reach;
 }
 
-/// The layer of a raster; none if it has no value near the domain.
+/// The layer of a raster; none if it has no value near the domain. The last one needs no shares.
 std::optional<RasterStack::Layer> read_layer(const std::vector<RasterTile>& tiles, const RasterPlace& place,
-                                             double blend, std::vector<Cover>& covers) {
+                                             double blend, bool is_last, std::vector<Cover>& covers) {
   std::vector<std::string> paths;
   for (const RasterTile& tile : tiles) paths.push_back(tile.path);
   const std::string& path = paths.front();
@@ -290,19 +290,21 @@ std::optional<RasterStack::Layer> read_layer(const std::vector<RasterTile>& tile
   const PlaceMap from_source = map_to_plane(rows, place);
   const RasterFrame frame = grid.frame();
   const Box own = box_of(frame);
-  const auto [across, upward] = spacings_in(frame, common_part(own, at.window).center(), from_source);
-  TiledGrid shares = shares_of(grid, across, upward, std::max({blend, across, upward}));
-  const std::int64_t missing = fill_from_nearest(grid, across, upward);
-  if (missing == frame.columns * frame.rows) return std::nullopt;
   const Box target = at.to_source ? common_part(at.domain, image_of(own, from_source)) : own;
   const auto in_domain = [&](TiledGrid values) {
     return at.to_source ? resampled(std::move(values), at, target, path) : std::move(values);
   };
+  const std::int64_t missing = count_missing(grid);
+  if (missing == frame.columns * frame.rows) return std::nullopt;
+  const auto [across, upward] = spacings_in(frame, common_part(own, at.window).center(), from_source);
+  std::optional<TiledGrid> shares;
+  if (missing > 0 && !is_last) shares = shares_of(grid, across, upward, std::max({blend, across, upward}));
+  fill_from_nearest(grid, across, upward);
   const auto values = std::make_shared<const GridRaster>(in_domain(std::move(grid)));
-  if (missing == 0) return RasterStack::Layer{values, nullptr, {}};
-  shares = in_domain(std::move(shares));
-  const Box reach = reach_of(shares);
-  return RasterStack::Layer{values, std::make_shared<const GridRaster>(std::move(shares)), reach};
+  if (!shares) return RasterStack::Layer{values, nullptr, {}};
+  TiledGrid in_plane = in_domain(std::move(*shares));
+  const Box reach = reach_of(in_plane);
+  return RasterStack::Layer{values, std::make_shared<const GridRaster>(std::move(in_plane)), reach};
 }
 
 }  // namespace
@@ -329,8 +331,10 @@ OpenedRaster open_rasters(const std::vector<std::string>& paths, const RasterPla
   if (how.finest_first) std::ranges::stable_sort(tiles, {}, &NearTile::spacing);
   std::vector<Cover> covers(place.points.size(), Cover::kOutside);
   std::vector<RasterStack::Layer> layers;
-  for (const std::vector<RasterTile>& mosaic : mosaics_of(tiles)) {
-    if (auto layer = read_layer(mosaic, place, how.blend, covers)) layers.push_back(std::move(*layer));
+  const std::vector<std::vector<RasterTile>> mosaics = mosaics_of(tiles);
+  for (const std::vector<RasterTile>& mosaic : mosaics) {
+    const bool is_last = &mosaic == &mosaics.back();
+    if (auto layer = read_layer(mosaic, place, how.blend, is_last, covers)) layers.push_back(std::move(*layer));
     if (!layers.empty() && !layers.back().share) break;  // what is below is not seen
   }
   if (layers.empty()) refuse_without_values(paths.front());
