@@ -8,6 +8,7 @@ namespace driftmesh::app {
 // and exits with 1, or with 3 for a LimitError.
 
 [[nodiscard]] cli::Command mesh_command();
+[[nodiscard]] cli::Command adapt_command();
 [[nodiscard]] cli::Command calibrate_command();
 [[nodiscard]] cli::Command check_command();
 [[nodiscard]] cli::Command convert_command();

@@ -282,12 +282,30 @@ class MshParser {
     return view.integers[2];
   }
 
-  // Whether it is an attribute written by write_msh; other views are not read.
+  // A view of another program, if it has one value each.
+  template <class Input>
+  bool parse_other_node_data(const View& view, Input& input) {
+    const std::string name(view.name.size() < 2 ? view.name : view.name.substr(1, view.name.size() - 2));
+    const bool is_known = std::ranges::any_of(raw_.attributes, [&](const auto& known) { return known.name == name; });
+    if (is_known || view.integers.size() < 3 || view.integers[1] != 1 || view.integers[2] < 0) return false;
+    if (!fault_of_name(name).empty() || raw_.attributes.size() == kMaxAttributes) return false;
+    RawMsh::Attribute& attribute = raw_.attributes.emplace_back();
+    attribute.name = name;
+    attribute.is_other = true;
+    for (std::int32_t left = view.integers[2]; left > 0; --left) {
+      attribute.nodes.push_back(input.integer());
+      attribute.values.push_back(input.real());
+    }
+    return true;
+  }
+
+  // Whether it is an attribute; other views are not read.
   template <class Input>
   bool parse_node_data(Input& input) {
     const View view = parse_view_header("$NodeData");
-    if (!view.name.starts_with("\"attribute ")) return false;
-    const std::string begin = "\"attribute " + std::to_string(raw_.attributes.size() + 1);
+    if (!view.name.starts_with("\"attribute ")) return parse_other_node_data(view, input);
+    const auto own = std::ranges::count(raw_.attributes, false, &RawMsh::Attribute::is_other);
+    const std::string begin = "\"attribute " + std::to_string(own + 1);
     const bool is_named = view.name.starts_with(begin + ": ") && view.name.ends_with('"');
     if (view.name != begin + '"' && !is_named)
       fail("has the view " + std::string(view.name) + " in place of " + begin + '"', kDamaged);

@@ -26,6 +26,7 @@ struct RawMsh {
     std::string name;  ///< empty: none
     std::vector<std::int32_t> nodes;
     std::vector<double> values;
+    bool is_other = false;  ///< not by write_msh
   };
   struct ElementValue {
     std::int32_t element = 0;

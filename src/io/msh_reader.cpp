@@ -174,6 +174,9 @@ class MshAssembler {
   }
 
   void place_attributes() {
+    std::erase_if(raw_.attributes, [&](const RawMsh::Attribute& attribute) {  // such as at nodes of lines alone
+      return attribute.is_other && attribute.nodes.size() != mesh_.points.size();
+    });
     const std::size_t per_point = raw_.attributes.size();
     mesh_.attributes_per_point = narrow<std::int32_t>(per_point, "attributes");
     mesh_.attributes.assign(per_point * mesh_.points.size(), 0);

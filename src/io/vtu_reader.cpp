@@ -110,7 +110,30 @@ void read_named_attributes(Mesh& mesh, const VtuArrayReader& arrays, std::uint64
   mesh.attributes_per_point = static_cast<std::int32_t>(width);
 }
 
-void read_point_data(Mesh& mesh, const VtuArrayReader& arrays, std::uint64_t count) {
+/// Point data of other programs become attributes, by name; those with several components one for each, called u_0,
+/// u_1.
+void read_other_point_data(Mesh& mesh, const VtuHeader& header, const VtuArrayReader& arrays, std::uint64_t count) {
+  std::vector<std::vector<double>> columns;
+  for (const auto& [place, array] : header.arrays) {
+    const std::string name = unescaped(place.second);
+    if (place.first != "PointData" || is_array_on_points(name) || !fault_of_name(name).empty()) continue;
+    const std::vector<double> values = arrays.open<double>(array, count, kMostAttributes).all();
+    for (std::size_t k = 0; k < array.components; ++k) {
+      const std::string own = array.components == 1 ? name : name + "_" + std::to_string(k);
+      if (std::ranges::count(mesh.attribute_names, own) > 0) continue;
+      mesh.attribute_names.push_back(own);
+      std::vector<double>& column = columns.emplace_back(count);
+      for (std::size_t v = 0; v < count; ++v) column[v] = values[v * array.components + k];
+    }
+  }
+  const std::size_t width = columns.size();
+  mesh.attributes.resize(count * width);
+  for (std::size_t k = 0; k < width; ++k)
+    for (std::size_t v = 0; v < count; ++v) mesh.attributes[v * width + k] = columns[k][v];
+  mesh.attributes_per_point = static_cast<std::int32_t>(width);
+}
+
+void read_point_data(Mesh& mesh, const VtuHeader& header, const VtuArrayReader& arrays, std::uint64_t count) {
   if (const VtuHeader::Array* const marker = arrays.find("PointData", "marker"))
     mesh.point_markers = arrays.open<std::int32_t>(*marker, count).all();
   if (!mesh.attribute_names.empty()) {
@@ -118,6 +141,8 @@ void read_point_data(Mesh& mesh, const VtuArrayReader& arrays, std::uint64_t cou
   } else if (const VtuHeader::Array* const attribute = arrays.find("PointData", "attribute")) {
     mesh.attributes = arrays.open<double>(*attribute, count, kMostAttributes).all();
     mesh.attributes_per_point = static_cast<std::int32_t>(attribute->components);
+  } else {
+    read_other_point_data(mesh, header, arrays, count);
   }
   if (const VtuHeader::Array* const number = arrays.find("PointData", "global_number"))
     mesh.numbers = arrays.open<std::int64_t>(*number, count).all();
@@ -211,7 +236,7 @@ Mesh parse_vtu(const std::string& file, std::string_view bytes, std::span<const 
   Mesh mesh;
   read_points(mesh, file, arrays, header.points);
   read_names(mesh, file, header, arrays);
-  read_point_data(mesh, arrays, header.points);
+  read_point_data(mesh, header, arrays, header.points);
   const GhostCells ghosts = read_cells(mesh, file, arrays, header.cells);
   check_read_mesh(mesh, file);
   if (std::ranges::count(ghosts.triangles, true) > 0) drop_ghosts(mesh, ghosts);

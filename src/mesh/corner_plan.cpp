@@ -31,7 +31,7 @@ constexpr double kSameLength = 0.0005;
 /// The segment ends of a triangulation with the sectors between them.
 class Sectors {
  public:
-  explicit Sectors(const Triangulation& mesh) : mesh_(mesh) {
+  Sectors(const Triangulation& mesh, const IdVector<RootId, bool>& fixed) : mesh_(mesh), fixed_(fixed) {
     const std::size_t ends = 2 * mesh.roots.size();
     next_.reserve(ends);
     angle_.reserve(ends);
@@ -40,7 +40,8 @@ class Sectors {
       const auto& v = mesh.roots[root_of(e)].vertex;
       length_.push_back(std::sqrt(squared_distance(mesh.points[v[0]], mesh.points[v[1]])));
       next_.push_back(next_around_apex(e));
-      angle_.push_back(next_.back() == kNone || next_.back() == e ? kOpen : angle_between(e, next_.back()));
+      const bool forms_none = next_.back() == kNone || next_.back() == e || is_fixed(e) || is_fixed(next_.back());
+      angle_.push_back(forms_none ? kOpen : angle_between(e, next_.back()));
       smallest_angle_ = std::min(smallest_angle_, angle_.back());
     }
   }
@@ -59,6 +60,8 @@ class Sectors {
  private:
   [[nodiscard]] VertexId apex_vertex(SegmentEnd e) const { return mesh_.roots[root_of(e)].vertex[side_of(e)]; }
 
+  [[nodiscard]] bool is_fixed(SegmentEnd e) const { return !fixed_.empty() && fixed_[root_of(e)]; }
+
   [[nodiscard]] SegmentEnd next_around_apex(SegmentEnd e) const {
     const Subsegment& s = mesh_.subsegments[mesh_.roots[root_of(e)].tree];
     HalfEdge h = s.half[side_of(e)];  // the edge that leaves the apex, with the domain on its left
@@ -76,6 +79,7 @@ class Sectors {
   }
 
   const Triangulation& mesh_;
+  const IdVector<RootId, bool>& fixed_;
   IdVector<SegmentEnd, SegmentEnd> next_;
   IdVector<SegmentEnd, double> angle_;
   IdVector<SegmentEnd, double> length_;
@@ -351,8 +355,8 @@ class Planner {
 
 }  // namespace
 
-CornerPlan plan_corners(const Triangulation& mesh, const CornerUse& use) {
-  const Sectors sectors(mesh);
+CornerPlan plan_corners(const Triangulation& mesh, const CornerUse& use, const IdVector<RootId, bool>& fixed) {
+  const Sectors sectors(mesh, fixed);
   const auto acute = static_cast<std::int32_t>(groups_below(sectors, kAcute).size());
   if (acute == 0) return {};  // clusters are groups of acute sectors
   CornerPlan plan = Planner(sectors, use).plan();

@@ -45,6 +45,8 @@ struct CornerPlan {
   std::int32_t clusters = 0;  ///< groups of segments that meet at less than 60 degrees, cut or not
 };
 
-[[nodiscard]] CornerPlan plan_corners(const Triangulation& mesh, const CornerUse& use);
+/// `fixed`: roots that form no corners, one entry for each root; empty: none.
+[[nodiscard]] CornerPlan plan_corners(const Triangulation& mesh, const CornerUse& use,
+                                      const IdVector<RootId, bool>& fixed);
 
 }  // namespace driftmesh

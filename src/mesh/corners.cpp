@@ -4,6 +4,7 @@
 
 #include "mesh/cavity.hpp"
 #include "mesh/corner_plan.hpp"
+#include "mesh/fixed_corners.hpp"
 
 namespace driftmesh {
 namespace {
@@ -41,7 +42,11 @@ bool may_split(const Triangulation& mesh, SubsegmentId s, InsertionRules::Split 
 }
 
 std::int32_t prepare_corners(Triangulation& mesh, const CornerUse& use) {
-  const CornerPlan plan = plan_corners(mesh, use);
+  return prepare_corners(mesh, use, {});
+}
+
+std::int32_t prepare_corners(Triangulation& mesh, const CornerUse& use, const IdVector<RootId, bool>& fixed) {
+  const CornerPlan plan = plan_corners(mesh, use, fixed);
   const auto free = [&](SegmentEnd end) { return may_split(mesh, mesh.roots[root_of(end)].tree, use.rules.split); };
   IdVector<SegmentEnd, VertexId> reached;  // from each end
   for (const RootSegment& root : mesh.roots) reached.insert(reached.end(), root.vertex.begin(), root.vertex.end());

@@ -1,0 +1,322 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/commands.hpp"
+#include "app/progress_line.hpp"
+#include "app/request_line.hpp"
+#include "app/run_files.hpp"
+#include "base/staged_files.hpp"
+#include "base/standard_streams.hpp"
+#include "base/stopwatch.hpp"
+#include "cli/values.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/repair.hpp"
+#include "io/file_sink.hpp"
+#include "io/mesh_file.hpp"
+#include "job/watch.hpp"
+#include "mesh/bounds.hpp"
+#include "patch/area.hpp"
+#include "patch/remake.hpp"
+#include "pslg/names.hpp"
+
+namespace driftmesh::app {
+namespace {
+
+struct AdaptCommand {
+  std::string mesh, output;
+  std::string lengths;
+  std::vector<std::string> transfers;
+  std::string only;
+  std::string map;
+  double angle = defaults::kMinAngle;
+  AdaptiveOptions options;
+  bool quiet = false;
+  ReadOptions reading;
+};
+
+/// A field of the mesh in the file, by its name.
+struct NamedField {
+  std::string name;
+  adapt::Field field;
+};
+
+std::string list_of_names(const std::vector<NamedField>& fields) {
+  std::string list;
+  for (const NamedField& named : fields) list += (list.empty() ? "'" : ", '") + named.name + "'";
+  return list.empty() ? "it has no point data" : "it has " + list;
+}
+
+/// Attributes are fields of their own from now on.
+std::vector<NamedField> take_fields(Mesh& mesh) {
+  std::vector<NamedField> fields;
+  const auto width = static_cast<std::size_t>(mesh.attributes_per_point);
+  for (std::size_t k = 0; k < width; ++k) {
+    NamedField named{
+        mesh.attribute_names.empty() ? "attribute" + (width > 1 ? std::to_string(k) : "") : mesh.attribute_names[k],
+        {}};
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) named.field.values.push_back(mesh.attributes[v * width + k]);
+    fields.push_back(std::move(named));
+  }
+  mesh.attributes.clear();
+  return fields;
+}
+
+void give_fields(Mesh& mesh, const std::vector<adapt::Field>& fields) {
+  mesh.attributes.resize(mesh.points.size() * fields.size());
+  for (std::size_t k = 0; k < fields.size(); ++k)
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) mesh.attributes[v * fields.size() + k] = fields[k].values[v];
+}
+
+adapt::Field& find_field(std::vector<NamedField>& fields, const std::string& name, const AdaptCommand& command,
+                         const char* option) {
+  for (NamedField& named : fields)
+    if (named.name == name) return named.field;
+  throw InputError({command.mesh}, "has no point data '" + name + "', which " + option + " names",
+                   list_of_names(fields));
+}
+
+std::vector<double> lengths_of(std::vector<NamedField>& fields, const AdaptCommand& command) {
+  const std::vector<double>& lengths = find_field(fields, command.lengths, command, "--lengths").values;
+  for (std::size_t v = 0; v < lengths.size(); ++v)
+    if (!(lengths[v] > 0))
+      throw InputError(
+          {command.mesh},
+          fmt::format("has a length of {} in '{}' at point {} (counted from 0)", lengths[v], command.lengths, v),
+          "lengths must be greater than 0");
+  return lengths;
+}
+
+void apply_transfers(std::vector<NamedField>& fields, const AdaptCommand& command) {
+  for (const std::string& transfer : command.transfers) {
+    const std::size_t equals = transfer.rfind('=');
+    const std::string how = equals == std::string::npos ? "" : transfer.substr(equals + 1);
+    if (!how.empty() && how != "conserve" && how != "interpolate")
+      throw cli::UsageError("--transfer is '" + transfer + "'; it is NAME, NAME=interpolate or NAME=conserve");
+    adapt::Field& field = find_field(fields, transfer.substr(0, equals), command, "--transfer");
+    if (how == "conserve") field.how = Transfer::kConserve;
+  }
+}
+
+std::optional<Box> box_from(const std::string& text) {
+  Box box;
+  try {
+    const std::vector<std::string> words = cli::separated(text);
+    if (words.size() != 4) return std::nullopt;
+    const auto number = [&](std::size_t i) { return cli::read_number(words[i], {}); };
+    box.extend(Point{number(0), number(1)});
+    box.extend(Point{number(2), number(3)});
+  } catch (const cli::UsageError&) {
+    return std::nullopt;
+  }
+  return box;
+}
+
+std::optional<double> region_named(const Mesh& mesh, const std::string& text) {
+  for (const auto& [attribute, name] : mesh.names.regions)
+    if (name == text) return attribute;
+  return region_from(text);
+}
+
+/// The triangles that --only names, or all.
+std::vector<bool> area_of(const Mesh& mesh, const AdaptCommand& command) {
+  const std::string& only = command.only;
+  if (only.empty()) return std::vector<bool>(mesh.triangles.size(), true);
+  std::vector<bool> inside;
+  if (const std::optional<Box> box = box_from(only)) {
+    inside = patch::triangles_in(mesh, *box);
+  } else if (const std::optional<double> region = region_named(mesh, only)) {
+    inside = patch::triangles_of_region(mesh, *region);
+  } else if (std::filesystem::exists(only)) {
+    InputFile input = read_input(only);
+    repair(input.pslg, only);
+    inside = patch::triangles_in(mesh, input.pslg);
+  } else {
+    throw cli::UsageError("--only is '" + only +
+                          "', which is no box x0,y0,x1,y1, no region of the mesh, and no file of polygons");
+  }
+  if (std::ranges::find(inside, true) == inside.end())
+    throw InputError({command.mesh}, "has no triangle in '" + only + "', which --only names",
+                     fmt::format("its points lie from {:.10g},{:.10g} to {:.10g},{:.10g}", Box::of(mesh.points).low.x,
+                                 Box::of(mesh.points).low.y, Box::of(mesh.points).high.x, Box::of(mesh.points).high.y));
+  return inside;
+}
+
+/// What is recorded of stages, for the summary.
+class StageNotes final : public job::Watch {
+ public:
+  explicit StageNotes(bool shows) : line_(shows) {}
+  void begins(const std::string& stage) override { line_.begin(stage); }
+  void end() { line_.end(); }
+
+ private:
+  ProgressLine line_;
+};
+
+std::string summary(const patch::Report& report, const Mesh& mesh, std::size_t before, const AdaptCommand& command,
+                    const std::vector<job::StageTime>& stages) {
+  std::string text = fmt::format("triangles      {} before, {} now: {} gone, {} made\n", before, mesh.triangles.size(),
+                                 report.gone, report.made);
+  text += fmt::format("points         {} gone, {} made\n", report.gone_points, report.new_points);
+  if (!command.only.empty())
+    text += fmt::format("margin         {} triangles around what was asked for, up to {:.4g} away\n", report.margin,
+                        report.margin_width);
+  text += "time          ";
+  for (const job::StageTime& stage : stages) text += fmt::format(" {} {:.2f} s", stage.name, stage.seconds);
+  return text + "\nfile           " + command.output + "\n";
+}
+
+/// The numbers that are new, or are not what they were.
+void write_map(const std::string& path, const patch::Remade& remade) {
+  FileSink out(path);
+  out.text("kind,new,old\n");
+  const auto write = [&](std::string_view kind, const std::vector<std::int32_t>& old) {
+    for (std::size_t i = 0; i < old.size(); ++i) {
+      if (std::cmp_equal(old[i], i)) continue;
+      out.text(kind);
+      out.character(',');
+      out.number(i);
+      out.character(',');
+      out.number(old[i]);
+      out.character('\n');
+    }
+  };
+  write("point", remade.old_points);
+  write("triangle", remade.old_triangles);
+  out.commit();
+}
+
+void run_adapt(const AdaptCommand& command) {
+  if (command.lengths.empty() && command.options.shortest == 0 && std::isinf(command.options.longest))
+    throw cli::UsageError("nothing says how long edges are to be; give --lengths, --max-length or --min-length");
+  FileRegistry files;
+  register_mesh_input(files, command.mesh, "MESH", command.reading);
+  register_mesh_output(files, command.output, "--output");
+  require_whole(command.output);
+  register_output(files, command.map, "--map");
+  StageNotes notes(!command.quiet);
+  Mesh mesh = job::timed(notes, "read", [&] { return read_mesh(command.mesh, command.reading); });
+  const std::size_t before = mesh.triangles.size();
+  std::vector<NamedField> named = take_fields(mesh);
+  patch::Order order{.options = command.options, .min_angle = command.angle};
+  if (!command.lengths.empty()) order.lengths = lengths_of(named, command);
+  apply_transfers(named, command);
+  order.inside = area_of(mesh, command);
+  std::vector<adapt::Field> fields;
+  for (NamedField& field : named) fields.push_back(std::move(field.field));
+  patch::Remade remade = job::timed(notes, "remake", [&] {
+    try {
+      return patch::remake(std::move(mesh), std::move(fields), order);
+    } catch (const LimitError&) {
+      throw;
+    } catch (const Error& error) {
+      throw InputError(command.mesh + ": " + error.what());
+    }
+  });
+  give_fields(remade.mesh, remade.fields);
+  StagedFiles staged;
+  job::timed(notes, "write", [&] {
+    if (!command.map.empty()) write_map(command.map, remade);
+    write_mesh(remade.mesh, command.output,
+               {.warn = [](const std::string& w) { std::cerr << "warning: " << w << '\n'; }});
+  });
+  staged.commit();
+  notes.end();
+  if (!command.quiet) print(summary(remade.report, remade.mesh, before, command, notes.take_stages()));
+}
+
+std::vector<cli::Option> adapt_options(AdaptCommand& command) {
+  constexpr double kMost = std::numeric_limits<double>::max();
+  return {{.kind = cli::Option::Kind::kPositional,
+           .name = "mesh",
+           .value = "MESH",
+           .help = "The mesh: " + mesh_files_read(),
+           .required = true,
+           .completes = cli::Option::Completes::kFile,
+           .take = cli::into(command.mesh)},
+          {.name = "output",
+           .letter = 'o',
+           .value = "NEW",
+           .help = "The new mesh; its extension selects the format: " + mesh_files_written(),
+           .required = true,
+           .completes = cli::Option::Completes::kFile,
+           .take = cli::into(command.output)},
+          {.name = "lengths",
+           .value = "NAME",
+           .help = "The point data that have the length of edges that is wanted at each point, linear between them",
+           .take = cli::into(command.lengths)},
+          {.name = "transfer",
+           .value = "NAME[=conserve]",
+           .help = "How point data get to the new mesh: interpolated, as all are, or such that their integrals stay",
+           .repeats = true,
+           .take = cli::into(command.transfers)},
+          {.name = "only",
+           .value = "AREA",
+           .help = "Make only this part anew, and as much around it as the angle bound takes; all else keeps its "
+                   "points, triangles and numbers: a box x0,y0,x1,y1, the name or number of a region, or a file of "
+                   "polygons",
+           .completes = cli::Option::Completes::kFile,
+           .take = cli::into(command.only)},
+          {.name = "map",
+           .value = "FILE.csv",
+           .help = "Write which points and triangles are new (old number -1) or have another number than before, "
+                   "counted from 0",
+           .completes = cli::Option::Completes::kFile,
+           .take = cli::into(command.map)},
+          {.name = "angle",
+           .letter = 'q',
+           .value = "DEGREES",
+           .help = "Smallest angle of new triangles, except where the outline has smaller ones",
+           .standard = fmt::format("{}", defaults::kMinAngle),
+           .take = cli::into(command.angle, {0, kMaxAngle})},
+          {.name = "min-length",
+           .value = "LENGTH",
+           .help = "Shorter lengths are raised to this one",
+           .take = cli::into(command.options.shortest, {0, kMost})},
+          {.name = "max-length",
+           .value = "LENGTH",
+           .help = "Longer lengths are lowered to this one",
+           .take = cli::into(command.options.longest, {.least = 0, .most = kMost, .above = true})},
+          {.name = "gradation",
+           .value = "GROWTH",
+           .help = "Lengths grow by at most this much per unit of distance; 0: no limit",
+           .standard = "0.2",
+           .take = cli::into(command.options.gradation, {0, kMost})},
+          {.name = "max-triangles",
+           .value = "COUNT",
+           .help = "Stop if what is made anew would have more triangles",
+           .take = cli::into(command.options.most_triangles, {.least = 0, .most = kMost, .above = true})},
+          {.kind = cli::Option::Kind::kFlag,
+           .name = "quiet",
+           .help = "Print no summary and no progress",
+           .take = cli::into(command.quiet)},
+          allow_outside_option(command.reading)};
+}
+
+}  // namespace
+
+cli::Command adapt_command() {
+  const auto command = std::make_shared<AdaptCommand>();
+  return {.name = "adapt",
+          .summary = "Refine and coarsen a mesh from a file, or a part of it",
+          .options = adapt_options(*command),
+          .notes = "The outline, markers, regions and names are those of the mesh. What point data it has comes along.",
+          .examples = {"driftmesh adapt flow.vtu --lengths h -o next.vtu"},
+          .exit_codes = "0 done, 1 error, 2 wrong usage, 3 stopped by a limit",
+          .run = [command](cli::Call&) {
+            run_adapt(*command);
+            return 0;
+          }};
+}
+
+}  // namespace driftmesh::app

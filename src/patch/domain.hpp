@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "driftmesh/pslg.hpp"
+#include "mesh/carve.hpp"
+#include "patch/part.hpp"
+
+namespace driftmesh::patch {
+
+/// What is to be triangulated anew.
+struct Domain {
+  Pslg pslg;                        ///< without polygons, holes and regions
+  std::vector<SegmentSides> sides;  ///< of its segments
+  std::vector<bool> fixed;          ///< segments that nothing may split: beyond them everything stays
+  std::vector<bool> free;           ///< points that refinement may delete
+  std::vector<double> regions;      ///< the attribute of each region label
+};
+
+/// What of a part is triangulated anew, and how far.
+struct Extent {
+  std::vector<bool> taken;   ///< triangles that may change
+  std::vector<bool> inside;  ///< those of them that are to be made anew
+  std::vector<bool> held;    ///< points that stay whatever is around them
+};
+
+/// The triangles that are taken, as a domain. Chains of segments in line become one, and free points disappear, where
+/// all triangles around them are inside.
+[[nodiscard]] Domain domain_of(const Part& part, const Extent& extent);
+
+}  // namespace driftmesh::patch

@@ -1,0 +1,256 @@
+#include "patch/remake.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "adapt/conserve.hpp"
+#include "adapt/interpolate.hpp"
+#include "adapt/lineage.hpp"
+#include "driftmesh/error.hpp"
+#include "geometry/predicates.hpp"
+#include "geometry/triangle_geometry.hpp"
+#include "patch/attempt.hpp"
+#include "patch/domain.hpp"
+#include "patch/lengths.hpp"
+#include "patch/neighborhood.hpp"
+#include "patch/old_places.hpp"
+#include "patch/part.hpp"
+#include "patch/splice.hpp"
+
+namespace driftmesh::patch {
+namespace {
+
+/// Layers of triangles around what is made anew in which refinement may fade out. Where these are too few, it gets
+/// more.
+constexpr int kLayers = 3;
+constexpr int kMostRounds = 12;
+
+void require_lengths(const Mesh& mesh, const std::vector<double>& lengths) {
+  if (lengths.empty()) return;
+  if (lengths.size() != mesh.points.size())
+    throw Error("there are " + std::to_string(lengths.size()) + " lengths for " + std::to_string(mesh.points.size()) +
+                " points; give one for each");
+  for (std::size_t v = 0; v < lengths.size(); ++v)
+    if (!(lengths[v] > 0))
+      throw Error("the length at point " + std::to_string(v) + " (counted from 0) is " + std::to_string(lengths[v]) +
+                  "; lengths must be greater than 0");
+}
+
+void require_counterclockwise(const Part& part) {
+  for (std::size_t t = 0; t < part.mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = part.mesh.triangles[t];
+    const auto at = [&](std::int32_t v) { return part.mesh.points[to_index(v)]; };
+    if (!(orient2d(at(a), at(b), at(c)) > 0))
+      throw Error("triangle " + std::to_string(part.triangle[t]) +
+                  " (counted from 0) is clockwise or flat; driftmesh check lists all of them");
+  }
+}
+
+Triangulation linked(const Mesh& mesh, const TriangleNeighbors& beyond) {
+  try {
+    return triangulation_of(mesh, beyond);
+  } catch (const Error& error) {
+    throw Error(std::string(error.what()) + "; look for the place with driftmesh check");
+  }
+}
+
+/// A mesh of a program that lists no edges has those of its boundary.
+void list_boundary(Mesh& mesh) {
+  if (!mesh.edges.empty()) return;
+  const TriangleNeighbors beyond = triangle_neighbors(mesh);
+  for (std::size_t t = 0; t < beyond.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i)
+      if (beyond[t][i] < 0) mesh.edges.push_back({mesh.triangles[t][(i + 1) % 3], mesh.triangles[t][(i + 2) % 3], 0});
+}
+
+Extent extent_of(const Mesh& mesh, const Part& part, const Neighborhood& taken, const std::vector<bool>& inside) {
+  Extent extent;
+  for (const std::int32_t t : part.triangle) {
+    extent.taken.push_back(taken.takes(t));
+    extent.inside.push_back(inside[to_index(t)]);
+  }
+  extent.held.assign(part.point.size(), false);
+  const auto hold = [&](std::int32_t v) {
+    const auto found = std::ranges::lower_bound(part.point, v);
+    if (found != part.point.end() && *found == v)
+      extent.held[static_cast<std::size_t>(found - part.point.begin())] = true;
+  };
+  for (const Mesh::Weir& weir : mesh.weirs) {
+    std::ranges::for_each(weir.points, hold);
+    std::ranges::for_each(weir.across, hold);
+  }
+  return extent;
+}
+
+/// What a transfer of fields sees of a part.
+adapt::Generation generation_of(const Mesh& mesh, Triangulation triangulation) {
+  adapt::Generation generation;
+  auto whole = std::make_shared<SubdomainMesh>();
+  whole->mesh = std::move(triangulation);
+  generation.parts.push_back({std::move(whole)});
+  IdVector<VertexId, std::int32_t> places(mesh.points.size());
+  std::iota(places.begin(), places.end(), 0);
+  generation.places.push_back(std::move(places));
+  generation.first_triangle.push_back(0);
+  generation.piece.mesh.points = mesh.points;
+  generation.piece.mesh.triangles = mesh.triangles;
+  return generation;
+}
+
+/// Values of some places, in their order.
+std::vector<double> taken_from(const std::vector<double>& values, std::size_t each,
+                               const std::vector<std::int32_t>& places) {
+  std::vector<double> taken;
+  taken.reserve(places.size() * each);
+  for (const std::int32_t place : places)
+    for (std::size_t k = 0; k < each; ++k) taken.push_back(values[to_index(place) * each + k]);
+  return taken;
+}
+
+/// Values where nothing changed, and in the others' places those of the part: the first ones of `made`.
+std::vector<double> put_together(const std::vector<double>& old, std::size_t each,
+                                 const std::vector<std::int32_t>& from, const std::vector<double>& made,
+                                 const std::vector<std::int32_t>& places) {
+  std::vector<double> values(from.size() * each);
+  for (std::size_t i = 0; i < from.size(); ++i)
+    for (std::size_t k = 0; from[i] >= 0 && k < each; ++k) values[i * each + k] = old[to_index(from[i]) * each + k];
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t k = 0; k < each; ++k) values[to_index(places[i]) * each + k] = made[i * each + k];
+  return values;
+}
+
+std::size_t values_at(const adapt::Field& field) {
+  return field.components * (field.place == FieldPlace::kCorners ? 3 : 1);
+}
+
+void carry(std::vector<adapt::Field>& fields, const Part& part, const NewPart& made, Triangulation before,
+           const Numbers& numbers) {
+  if (fields.empty()) return;
+  const adapt::Generation old_part = generation_of(part.mesh, std::move(before));
+  const adapt::Generation next_part = generation_of(made.mesh, linked(made.mesh, triangle_neighbors(made.mesh)));
+  const adapt::Lineage lineage(old_part, next_part, 1);
+  std::vector<std::vector<double>> old;
+  for (const adapt::Field& field : fields)
+    old.push_back(
+        taken_from(field.values, values_at(field), field.place == FieldPlace::kPoints ? part.point : part.triangle));
+  std::vector<adapt::ConservedField> conserving;
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    if (fields[i].how == Transfer::kConserve) conserving.push_back({fields[i].place, fields[i].components, old[i]});
+  std::vector<std::vector<double>> conserved = adapt::conserved(lineage, conserving);
+  std::size_t taken = 0;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    adapt::Field& field = fields[i];
+    const bool at_points = field.place == FieldPlace::kPoints;
+    const std::vector<double> values = field.how == Transfer::kConserve
+                                           ? std::move(conserved[taken++])
+                                           : adapt::interpolated_at_points(lineage, old[i], field.components);
+    field.values = put_together(field.values, values_at(field), at_points ? numbers.old_points : numbers.old_triangles,
+                                values, at_points ? numbers.points : numbers.triangles);
+  }
+}
+
+/// A distance from what was inside within which all points of triangles are that are gone: looks along edges for points
+/// inside that are near.
+double margin_width(const Part& part, const Extent& extent, const std::vector<bool>& gone) {
+  std::vector<std::int32_t> from(part.mesh.points.size(), kNone);
+  for (std::size_t t = 0; t < gone.size(); ++t)
+    if (extent.inside[t])
+      for (const std::int32_t v : part.mesh.triangles[t]) from[to_index(v)] = v;
+  double width = 0;
+  for (bool any = true; any;) {
+    any = false;
+    for (std::size_t t = 0; t < gone.size(); ++t) {
+      if (!gone[t] || extent.inside[t]) continue;
+      for (const std::int32_t v : part.mesh.triangles[t])
+        for (const std::int32_t w : part.mesh.triangles[t]) {
+          const std::int32_t source = from[to_index(w)];
+          if (source == kNone || from[to_index(v)] == source) continue;
+          const auto distance = [&](std::int32_t s) {
+            return squared_distance(part.mesh.points[to_index(v)], part.mesh.points[to_index(s)]);
+          };
+          if (from[to_index(v)] != kNone && distance(from[to_index(v)]) <= distance(source)) continue;
+          from[to_index(v)] = source;
+          any = true;
+        }
+    }
+  }
+  for (std::size_t v = 0; v < from.size(); ++v)
+    if (from[v] != kNone)
+      width = std::max(width, squared_distance(part.mesh.points[v], part.mesh.points[to_index(from[v])]));
+  return std::sqrt(width);
+}
+
+Report report_of(const Part& part, const Extent& extent, const NewPart& made) {
+  Report report;
+  std::vector<bool> gone = extent.taken;
+  for (const std::int32_t old : made.old_triangle)
+    if (old >= 0) gone[to_index(old)] = false;
+  for (std::size_t t = 0; t < gone.size(); ++t) {
+    report.inside += extent.inside[t] ? 1 : 0;
+    report.gone += gone[t] ? 1 : 0;
+    report.margin += gone[t] && !extent.inside[t] ? 1 : 0;
+  }
+  report.made = std::count(made.old_triangle.begin(), made.old_triangle.end(), -1);
+  report.new_points = std::count(made.old_point.begin(), made.old_point.end(), -1);
+  const auto before = static_cast<std::int64_t>(part.point.size());
+  const auto kept = static_cast<std::int64_t>(made.old_point.size()) - report.new_points;
+  report.gone_points = before - kept;
+  report.margin_width = margin_width(part, extent, gone);
+  return report;
+}
+
+Remade unchanged(Mesh mesh, std::vector<adapt::Field> fields) {
+  Remade same{std::move(mesh), std::move(fields), {}, {}, {}};
+  same.old_points.resize(same.mesh.points.size());
+  same.old_triangles.resize(same.mesh.triangles.size());
+  std::iota(same.old_points.begin(), same.old_points.end(), 0);
+  std::iota(same.old_triangles.begin(), same.old_triangles.end(), 0);
+  return same;
+}
+
+std::vector<std::int32_t> numbers_in_whole(const Part& part, std::vector<std::int32_t> points) {
+  for (std::int32_t& point : points) point = part.point[to_index(point)];
+  return points;
+}
+
+}  // namespace
+
+Remade remake(Mesh mesh, std::vector<adapt::Field> fields, const Order& order) {
+  require_lengths(mesh, order.lengths);
+  if (std::ranges::find(order.inside, true) == order.inside.end()) return unchanged(std::move(mesh), std::move(fields));
+  list_boundary(mesh);
+  const double most = order.options.most_triangles;
+  Neighborhood taken(mesh, order.inside);
+  taken.grow(kLayers);
+  for (int round = 0;; ++round) {
+    const Part part = part_of(mesh, taken.with_rim());
+    require_counterclockwise(part);
+    const Extent extent = extent_of(mesh, part, taken, order.inside);
+    Triangulation before = linked(part.mesh, part.beyond);
+    const adapt::Lengths lengths = lengths_in(part, before, extent, order.lengths, order.options);
+    const adapt::LinearLengths sizes(before, lengths);
+    const OldPlaces old(part.mesh);
+    const Attempt made =
+        attempt(domain_of(part, extent), part, extent, old, {.min_angle = order.min_angle, .size = &sizes},
+                most > 0 ? static_cast<std::int64_t>(most) : kMostRefined);
+    if (!made.tight.empty() && round < kMostRounds &&
+        taken.grow_around(numbers_in_whole(part, made.tight), kLayers + round))
+      continue;
+    const NewPart next = new_part(made, part, extent, old);
+    Remade remade;
+    const Numbers numbers = splice(mesh, part, extent, next);
+    carry(fields, part, next, std::move(before), numbers);
+    remade.report = report_of(part, extent, next);
+    remade.mesh = std::move(mesh);
+    remade.fields = std::move(fields);
+    remade.old_points = numbers.old_points;
+    remade.old_triangles = numbers.old_triangles;
+    return remade;
+  }
+}
+
+}  // namespace driftmesh::patch

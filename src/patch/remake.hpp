@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "adapt/fields.hpp"
+#include "driftmesh/adaptive.hpp"
+#include "driftmesh/defaults.hpp"
+#include "driftmesh/mesh.hpp"
+
+namespace driftmesh::patch {
+
+/// What is to be made anew.
+struct Order {
+  std::vector<bool> inside{};     ///< one for each triangle
+  std::vector<double> lengths{};  ///< wanted, one for each point; empty: those that the triangles have
+  AdaptiveOptions options{};      ///< for lengths; most_triangles: what is made anew has no more; 0: no limit
+  double min_angle = defaults::kMinAngle;
+};
+
+struct Report {
+  std::int64_t inside = 0;       ///< triangles that were to be made anew
+  std::int64_t gone = 0;         ///< triangles that are no longer there
+  std::int64_t made = 0;         ///< new triangles
+  std::int64_t margin = 0;       ///< triangles that are gone without having been inside
+  double margin_width = 0;       ///< no point of these is farther from what was inside
+  std::int64_t gone_points = 0;  ///< points that are no longer there
+  std::int64_t new_points = 0;
+};
+
+struct Remade {
+  Mesh mesh;
+  std::vector<adapt::Field> fields;
+  std::vector<std::int32_t> old_points;     ///< for each point its number in the old mesh; -1: it is new
+  std::vector<std::int32_t> old_triangles;  ///< the same for triangles
+  Report report;
+};
+
+/// Makes parts of a mesh anew for lengths and an angle bound, and as much around them as the bound takes. Everything
+/// beyond stays bit for bit: points, triangles with their corners in order, edges, markers, and numbers (see splice).
+/// The new triangles are Delaunay, also together with what stays. Fields are carried over; the mesh has no attributes
+/// of its own. Throws Error for triangles that are clockwise or do not fit together, for lengths that are not positive,
+/// and LimitError.
+[[nodiscard]] Remade remake(Mesh mesh, std::vector<adapt::Field> fields, const Order& order);
+
+}  // namespace driftmesh::patch

@@ -1,0 +1,241 @@
+#!/usr/bin/env python3
+"""driftmesh adapt: meshes from files, made anew as lengths at their points ask, as a whole or in part.
+
+usage: adapt_test.py DRIFTMESH [unittest options]
+"""
+
+import math
+import os
+import random
+
+from program import SQUARE, Cli, main
+
+REGIONS = """6 0
+1 0 0
+2 2 0
+3 4 0
+4 4 4
+5 2 4
+6 0 4
+7 1
+1 1 2 1
+2 2 3 2
+3 3 4 3
+4 4 5 4
+5 5 6 5
+6 6 1 6
+7 2 5 9
+0
+2
+1 1 1 10
+2 3 1 20
+"""
+REGIONS = REGIONS.replace("6 0\n", "6 2 0 0\n", 1)
+
+
+def as_vtu(points, triangles, data):
+    """A mesh as other programs write it: text, with names of their own, and no segments."""
+    def array(name, kind, values, components=1):
+        return (f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="ascii">'
+                f'{" ".join(map(str, values))}</DataArray>')
+    return (f'<?xml version="1.0"?><VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian">'
+            f'<UnstructuredGrid><Piece NumberOfPoints="{len(points)}" NumberOfCells="{len(triangles)}"><PointData>'
+            + "".join(array(name, "Float64", map(repr, values)) for name, values in data.items())
+            + '</PointData><CellData></CellData><Points>'
+            + array("Points", "Float64", (repr(x) for p in points for x in (*p, 0.0)), 3) + "</Points><Cells>"
+            + array("connectivity", "Int64", (v for t in triangles for v in t))
+            + array("offsets", "Int64", range(3, 3 * len(triangles) + 1, 3))
+            + array("types", "UInt8", [5] * len(triangles)) + "</Cells></Piece></UnstructuredGrid></VTKFile>")
+
+
+def integral(points, triangles, values):
+    return math.fsum(area(points, t) * sum(values[v] for v in t) / 3 for t in triangles)
+
+
+def area(points, triangle):
+    (ax, ay), (bx, by), (cx, cy) = (points[v] for v in triangle)
+    return ((bx - ax) * (cy - ay) - (cx - ax) * (by - ay)) / 2
+
+
+class Adapt(Cli):
+    def table(self, name):
+        rows = [line.split() for line in (self.folder / name).read_text().splitlines() if not line.startswith("#")]
+        return rows[1:1 + int(rows[0][0])]
+
+    def read(self, name):
+        """Points, triangles, and values at points, as text that has all bits."""
+        self.succeed("convert", name, "table.ele")
+        nodes = self.table("table.node")
+        first = int(nodes[0][0])
+        return ([tuple(map(float, row[1:3])) for row in nodes],
+                [tuple(int(v) - first for v in row[1:4]) for row in self.table("table.ele")],
+                [list(map(float, row[3:])) for row in nodes])
+
+    def mesh(self, name, poly=SQUARE, size=0.5, **data):
+        """A mesh of another program: functions of the place give its point data."""
+        self.write("domain.poly", poly)
+        self.succeed("mesh", "domain.poly", "--area", size * size / 2, "-o", "first.vtu")
+        points, triangles, _ = self.read("first.vtu")
+        self.write(name, as_vtu(points, triangles, {key: [f(*p) for p in points] for key, f in data.items()}))
+        return points, triangles
+
+    def assert_beyond_stays(self, old, new, inside):
+        """No point or triangle beyond a margin changes, nor its number."""
+        (old_points, old_triangles), (points, triangles, _) = old, new
+        stay = [t for t, corners in enumerate(old_triangles) if not any(inside(*old_points[v]) for v in corners)]
+        self.assertTrue(stay)
+        moved = [t for t in stay if t >= len(triangles) or triangles[t] != old_triangles[t]
+                 or any(points[v] != old_points[v] for v in old_triangles[t])]
+        return stay, moved
+
+
+class Whole(Adapt):
+    def test_lengths_are_met_and_fields_come_along(self):
+        points, triangles = self.mesh("old.vtu", h=lambda x, y: 0.1 + 0.1 * x, u=lambda x, y: 2 * x - 3 * y + 1,
+                                      hill=lambda x, y: math.exp(-(x - 2) ** 2 - y * y))
+        out = self.succeed("adapt", "old.vtu", "--lengths", "h", "--transfer", "hill=conserve", "-o", "new.vtu")
+        self.assertIn("triangles", out)
+        self.succeed("check", "new.vtu", "--angle", 20)
+        new_points, new_triangles, values = self.read("new.vtu")
+        for (x, y), (h, hill, u) in zip(new_points, values):
+            self.assertAlmostEqual(h, 0.1 + 0.1 * x, delta=1e-12)
+            self.assertAlmostEqual(u, 2 * x - 3 * y + 1, delta=1e-12)
+        old_hill = integral(points, triangles, [math.exp(-(x - 2) ** 2 - y * y) for x, y in points])
+        self.assertAlmostEqual(integral(new_points, new_triangles, [row[1] for row in values]), old_hill,
+                               delta=1e-12 * old_hill)
+        for t in new_triangles:
+            x = min(new_points[v][0] for v in t)
+            self.assertLess(area(new_points, t), 1.25 * 3 ** 0.5 / 4 * (0.1 + 0.1 * (x + 0.3)) ** 2)
+
+    def test_what_is_coarsened_has_the_segments_of_the_outline(self):
+        self.mesh("old.vtu", size=0.1, h=lambda x, y: 2.0)
+        self.succeed("adapt", "old.vtu", "--lengths", "h", "-o", "new.vtu")
+        self.succeed("check", "new.vtu", "--angle", 20)
+        self.assertLess(len(self.read("new.vtu")[1]), 40)
+
+    def test_regions_and_markers_stay(self):
+        self.write("domain.poly", REGIONS)
+        self.succeed("mesh", "domain.poly", "--area", 0.2, "-o", "old.msh")
+        for name in "new.vtu", "new.msh", "new.h5":
+            self.succeed("adapt", "old.msh", "--max-length", 0.2, "-o", name)
+            self.succeed("check", name, "domain.poly", "--angle", 20, "--area", 0.0175)
+
+    def test_lengths_are_limited(self):
+        self.mesh("old.vtu", h=lambda x, y: 0.01 if x + y == 0 else 1)
+        counts = []
+        for options in [[], ["--gradation", "0.5"], ["--min-length", "0.3"], ["--max-length", "0.2"]]:
+            self.succeed("adapt", "old.vtu", "--lengths", "h", *options, "-o", "new.vtu")
+            self.succeed("check", "new.vtu", "--angle", 20)
+            counts.append(len(self.read("new.vtu")[1]))
+        default, steep, raised, lowered = counts
+        self.assertLess(steep, default)
+        self.assertLess(raised, default)
+        self.assertGreater(lowered, default)
+
+
+class Part(Adapt):
+    def test_only_a_box_changes(self):
+        old = self.mesh("foreign.vtu", size=0.1)
+        out = self.succeed("adapt", "first.vtu", "--max-length", 0.03, "--only", "1,1,2,1.5", "-o", "new.vtu",
+                           "--map", "map.csv")
+        margin = float(out.split("up to ")[1].split()[0])
+        self.succeed("check", "new.vtu", "domain.poly", "--angle", 20)
+        new = self.read("new.vtu")
+        far = margin * 1.001
+        _, moved = self.assert_beyond_stays(
+            old, new, lambda x, y: 0.8 - far <= x <= 2.2 + far and 0.8 - far <= y <= 1.7 + far)
+        self.assertEqual(moved, [])
+        self.assertGreater(len(new[1]), len(old[1]))
+        rows = [line.split(",") for line in (self.folder / "map.csv").read_text().splitlines()[1:]]
+        same = set(range(len(new[1]))) - {int(now) for kind, now, _ in rows if kind == "triangle"}
+        self.assertTrue(all(new[1][t] == old[1][t] for t in same))
+        self.assertEqual({before for *_, before in rows}, {"-1"})
+
+    def test_a_mesh_without_segments_gets_those_of_its_boundary(self):
+        self.mesh("old.vtu", size=0.3, h=lambda x, y: 0.1)
+        self.succeed("adapt", "old.vtu", "--lengths", "h", "--only", "1,1,2,2", "-o", "new.vtu")
+        self.succeed("check", "new.vtu", "--angle", 20)
+
+    def test_a_region_or_a_polygon(self):
+        self.write("domain.poly", REGIONS)
+        self.succeed("mesh", "domain.poly", "--area", 0.01, "--region-name", "20=sand", "-o", "old.vtu")
+        old = self.read("old.vtu")[:2]
+        self.write("area.poly", SQUARE.replace("1 0 0", "1 2 0").replace("4 0 4", "4 2 4"))
+        for area in "sand", "20", "area.poly", "2,0,4,4":
+            out = self.succeed("adapt", "old.vtu", "--max-length", 0.05, "--only", area, "-o", "new.vtu")
+            self.succeed("check", "new.vtu", "domain.poly", "--angle", 20)
+            margin = float(out.split("up to ")[1].split()[0]) * 1.001
+            new = self.read("new.vtu")
+            _, moved = self.assert_beyond_stays(old, new, lambda x, y: x >= 2 - margin)
+            self.assertEqual(moved, [])
+            self.assertGreater(len(new[1]), 2 * len(old[1]))
+
+    def test_coarser_parts_leave_no_gaps_in_numbers(self):
+        old = self.mesh("foreign.vtu", size=0.1)
+        self.succeed("adapt", "first.vtu", "--min-length", 0.6, "--only", "1,1,3,3", "-o", "new.vtu")
+        self.succeed("check", "new.vtu", "domain.poly", "--angle", 20)
+        points, triangles, _ = self.read("new.vtu")
+        self.assertLess(len(triangles), len(old[1]))
+        self.assertEqual(len({v for t in triangles for v in t}), len(points))
+        kept = set(old[0]) & set(points)
+        same_number = sum(old[0][i] == points[i] for i in range(len(points)))
+        self.assertGreaterEqual(same_number, len(kept) - (len(old[0]) - len(points)))
+
+    def test_random_parts_of_random_meshes(self):
+        for seed in [int(os.environ["SEED"])] if "SEED" in os.environ else range(6):
+            with self.subTest(f"SEED={seed}"):
+                self.try_random_part(random.Random(seed))
+
+    def try_random_part(self, rng):
+        corners = sorted((rng.uniform(0, 2 * math.pi) for _ in range(rng.randrange(4, 9))))
+        ring = [(round(4 * rng.uniform(0.5, 1) * math.cos(a), 3), round(4 * rng.uniform(0.5, 1) * math.sin(a), 3))
+                for a in [i * 2 * math.pi / len(corners) for i in range(len(corners))]]
+        n = len(ring)
+        poly = f"{n} 2 0 0\n" + "".join(f"{i + 1} {x} {y}\n" for i, (x, y) in enumerate(ring))
+        poly += f"{n} 1\n" + "".join(f"{i + 1} {i + 1} {(i + 1) % n + 1} {i + 1}\n" for i in range(n)) + "0\n"
+        fine = rng.uniform(0.03, 0.5)
+        old = self.mesh("foreign.vtu", poly, size=rng.uniform(0.1, 0.3))
+        x, y = rng.choice(old[0])
+        width, height = rng.uniform(0.1, 1.5), rng.uniform(0.1, 1.5)
+        x, y = x - width / 2, y - height / 2
+        out = self.succeed("adapt", "first.vtu", "--min-length", fine, "--max-length", fine,
+                           "--only", f"{x},{y},{x + width},{y + height}", "-o", "new.vtu")
+        margin = float(out.split("up to ")[1].split()[0]) * 1.001
+        self.succeed("check", "new.vtu", "domain.poly", "--angle", 20)
+        new = self.read("new.vtu")
+        longest = max(math.dist(old[0][t[i]], old[0][t[i - 1]]) for t in old[1] for i in range(3))
+        far = margin + longest
+        _, moved = self.assert_beyond_stays(
+            old, new, lambda px, py: x - far <= px <= x + width + far and y - far <= py <= y + height + far)
+        if len(new[1]) >= len(old[1]) and len(new[0]) >= len(old[0]):
+            self.assertEqual(moved, [])
+        here = {tuple(sorted(new[0][v] for v in t)) for t in new[1]}
+        missing = [t for t in old[1] if tuple(sorted(old[0][v] for v in t)) not in here
+                   and not any(x - far <= old[0][v][0] <= x + width + far and y - far <= old[0][v][1] <= y + height + far
+                               for v in t)]
+        self.assertEqual(missing, [])
+
+
+class Errors(Adapt):
+    def test_each_is_one_clear_line(self):
+        self.mesh("old.vtu", h=lambda x, y: 1.0, bad=lambda x, y: -1.0 if x > 3 else 1.0,
+                  nan=lambda x, y: math.nan if x > 3 else 1.0)
+        self.refuse("adapt", "old.vtu", "--lengths", "g", "-o", "new.vtu", says=["old.vtu", "'g'", "--lengths", "'h'"])
+        self.refuse("adapt", "old.vtu", "--lengths", "bad", "-o", "new.vtu", says=["old.vtu", "-1", "at point"])
+        self.refuse("adapt", "old.vtu", "--lengths", "nan", "-o", "new.vtu", says=["old.vtu", "nan", "at point"])
+        self.refuse("adapt", "old.vtu", "--lengths", "h", "--only", "7,7,8,8", "-o", "new.vtu",
+                    says=["no triangle", "7,7,8,8", "from 0,0 to 4,4"])
+        self.refuse("adapt", "old.vtu", "--lengths", "h", "--only", "nowhere", "-o", "new.vtu", code=2,
+                    says=["nowhere", "no region"])
+        self.refuse("adapt", "old.vtu", "--lengths", "h", "--transfer", "w", "-o", "new.vtu", says=["'w'", "--transfer"])
+        self.refuse("adapt", "old.vtu", "--lengths", "h", "--transfer", "h=sometimes", "-o", "new.vtu", code=2,
+                    says=["sometimes", "conserve"])
+        self.refuse("adapt", "old.vtu", "-o", "new.vtu", code=2, says=["--lengths", "--max-length"])
+        self.refuse("adapt", "old.vtu", "--max-length", 0.01, "--max-triangles", 1000, "-o", "new.vtu", code=3,
+                    says=["1000"])
+        self.refuse("adapt", "old.vtu", "--lengths", "h", "-o", "old.vtu", says=["old.vtu"])
+        self.assertNotIn("new.vtu", self.files())
+
+
+if __name__ == "__main__":
+    main()
