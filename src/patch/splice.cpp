@@ -172,8 +172,6 @@ class Splicing {
     put_edges();
     move_the_last();
     mesh_.numbers.clear();
-    mesh_.subdomains.clear();
-    mesh_.ranks.clear();
     return std::move(numbers_);
   }
 
@@ -210,6 +208,9 @@ class Splicing {
       const auto& [a, b, c] = made_.mesh.triangles[t];
       put(mesh_.triangles, number, {point(a), point(b), point(c)});
       if (!mesh_.regions.empty()) put(mesh_.regions, number, made_.mesh.regions[t]);
+      if (old >= 0) continue;
+      if (!mesh_.subdomains.empty()) put(mesh_.subdomains, number, own_subdomain_);
+      if (!mesh_.ranks.empty()) put(mesh_.ranks, number, 0);
     }
   }
 
@@ -249,14 +250,22 @@ class Splicing {
     for (std::size_t k = gone.size(); k > used; --k) mesh_.edges.erase(mesh_.edges.begin() + gone[k - 1]);
   }
 
+  /// Calls visit for each array that has a value for each triangle.
+  template <class Visit>
+  void for_each_label(const Visit& visit) {
+    if (!mesh_.regions.empty()) visit(mesh_.regions);
+    if (!mesh_.subdomains.empty()) visit(mesh_.subdomains);
+    if (!mesh_.ranks.empty()) visit(mesh_.ranks);
+  }
+
   void move_the_last() {
     triangles_.close([&](std::int32_t from, std::int32_t to) {
       mesh_.triangles[to_index(to)] = mesh_.triangles[to_index(from)];
-      if (!mesh_.regions.empty()) mesh_.regions[to_index(to)] = mesh_.regions[to_index(from)];
+      for_each_label([&](auto& labels) { labels[to_index(to)] = labels[to_index(from)]; });
       moved_triangles_[from] = to;
     });
     mesh_.triangles.resize(triangles_.size());
-    if (!mesh_.regions.empty()) mesh_.regions.resize(triangles_.size());
+    for_each_label([&](auto& labels) { labels.resize(triangles_.size()); });
     points_.close([&](std::int32_t from, std::int32_t to) {
       mesh_.points[to_index(to)] = mesh_.points[to_index(from)];
       if (!mesh_.point_markers.empty()) mesh_.point_markers[to_index(to)] = mesh_.point_markers[to_index(from)];
@@ -295,6 +304,8 @@ class Splicing {
   const NewPart& made_;
   ConstrainedEdgeIndex index_{part_.mesh};
   Numbering points_{mesh_.points.size()}, triangles_{mesh_.triangles.size()};
+  // Edges between subdomains need not be Delaunay. What is made anew is one of its own.
+  std::int32_t own_subdomain_ = mesh_.subdomains.empty() ? 0 : 1 + *std::ranges::max_element(mesh_.subdomains);
   std::map<std::int32_t, std::int32_t> moved_points_, moved_triangles_;
   Numbers numbers_;
 };

@@ -181,6 +181,15 @@ class Part(Adapt):
         same_number = sum(old[0][i] == points[i] for i in range(len(points)))
         self.assertGreaterEqual(same_number, len(kept) - (len(old[0]) - len(points)))
 
+    def test_a_mesh_made_in_subdomains(self):
+        self.write("domain.poly", SQUARE)
+        self.succeed("mesh", "domain.poly", "--area", 0.002, "--subdomains", 100, "-o", "old.vtu")
+        self.succeed("check", "old.vtu", "domain.poly", "--angle", 20)
+        for length in 0.02, 0.3:
+            self.succeed("adapt", "old.vtu", "--min-length", length, "--max-length", length, "--only", "1,1,1.2,1.2",
+                         "-o", "new.vtu")
+            self.succeed("check", "new.vtu", "domain.poly", "--angle", 20)
+
     def test_random_parts_of_random_meshes(self):
         for seed in [int(os.environ["SEED"])] if "SEED" in os.environ else range(6):
             with self.subTest(f"SEED={seed}"):
