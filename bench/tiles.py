@@ -14,18 +14,25 @@ import struct
 import subprocess
 import sys
 import tempfile
-
-import numpy as np
+import time
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.append(str(PROJECT / "scripts" / "tables"))
 import results  # noqa: E402
 from table import Table  # noqa: E402
 
+try:
+    import numpy as np
+except ImportError:  # --help works without
+    np = None
+
 WEST, SOUTH, TILE = -76.0, 27.0, 0.25  # degrees
-TIDE, SLOPE, COAST, DEEP, CFL = ("44714*sqrt(9.81*depth)/400", "0.4*depth/max(slope(depth), 0.001)", "120 + 0.05*distance(1, 2)",
+TIDE, SLOPE, COAST, DEEP, CFL = ("44714*sqrt(9.81*depth)/400", "0.4*depth/max(slope(depth), 0.001)", "120 + 0.05*distance(1)",
                                  "100 + 2*depth", "4*sqrt(9.81*depth)/0.5")
 RULES = f"max({CFL}, min({TIDE}, min({SLOPE}, min({COAST}, {DEEP}))))"
+
+
+COARSE = 3  # by how much lengths are multiplied to find out how many points there will be; few enough of them must be the coast's
 
 
 def write_geotiff(path, west, north, step, values):
@@ -78,23 +85,34 @@ def write_coast(path, across, upward):
     path.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
 
 
+def own_memory(process):
+    """What the system cannot write back into a file; 0 for a process that has ended."""
+    status = pathlib.Path(f"/proc/{process}/status").read_text()
+    return 1024 * sum(int(line.split()[1]) for line in status.splitlines() if line.startswith("RssAnon:"))
+
+
 def run(command, record):
+    """Measures, and looks every tenth of a second how much memory is not that of files, which the system can write back and give to others."""
     process = subprocess.Popen([*map(str, command), "--json", record, "--quiet"])
-    _, status, usage = os.wait4(process.pid, 0)
+    own, ended = 0, 0
+    while not ended:
+        own = max(own, own_memory(process.pid))
+        time.sleep(0.1)
+        ended, status, usage = os.wait4(process.pid, os.WNOHANG)
     process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode != 0:
         raise SystemExit(f"{command[:3]} ... ended with {process.returncode}")
     made = json.loads(record.read_text())
     return {"seconds": made["work"]["seconds"], "stages": made["work"]["seconds_by_stage"],
-            "processor": usage.ru_utime + usage.ru_stime, "peak": usage.ru_maxrss * 1024, "points": made["mesh"]["vertices"]}
+            "processor": usage.ru_utime + usage.ru_stime, "peak": usage.ru_maxrss * 1024, "own": own, "points": made["mesh"]["vertices"]}
 
 
 def measured(options):
     tiles = options.across * options.upward
     table = Table("tiles", f"{tiles} tiles of {options.side:,} by {options.side:,} values, five rules",
-                  ["threads", "points", "seconds", "of these reading rasters", "processor seconds", "most memory"],
-                  f"`--size \"{RULES}\"`, lengths divided so that {options.points:,} points are made. Memory includes what the system keeps of "
-                  "the program's temporary files.")
+                  ["threads", "points", "seconds", "of these reading rasters", "processor seconds", "most memory", "of it not of files"],
+                  f"`--size \"{RULES}\"`, lengths divided so that {options.points:,} points are made. Large grids of depths are "
+                  "mapped from temporary files, of which the system keeps in memory what it has room for; the last column is without them.")
     with tempfile.TemporaryDirectory(dir=options.folder) as name:
         folder = pathlib.Path(name)
         paths = write_tiles(folder, options.across, options.upward, options.side)
@@ -102,12 +120,12 @@ def measured(options):
         plain = [options.program, "mesh", folder / "coast.geojson", "--raster", "depth=" + ",".join(map(str, paths)), "--depth", "depth"]
         factor = 1.0
         if options.points > 0:
-            first = run([*plain, "--size", f"10*({RULES})", "--threads", options.threads], folder / "first.json")
-            factor = 10 * (first["points"] / options.points) ** 0.5
+            first = run([*plain, "--size", f"{COARSE}*({RULES})", "--threads", options.threads], folder / "first.json")
+            factor = COARSE * (first["points"] / options.points) ** 0.5
         for threads in sorted({1, options.threads}):
             made = run([*plain, "--size", f"{factor:.4g}*({RULES})", "--threads", threads, "-o", folder / "mesh.vtu"], folder / "run.json")
             table.add(threads, f"{made['points']:,}", f"{made['seconds']:.0f}", f"{made['stages']['rasters']:.1f}", f"{made['processor']:.0f}",
-                      f"{made['peak'] / 1e6:,.0f} MB")
+                      f"{made['peak'] / 1e6:,.0f} MB", f"{made['own'] / 1e6:,.0f} MB")
     return table
 
 
