@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -53,12 +54,15 @@ struct AdaptReport {
   std::int32_t kept = 0;        ///< subdomains that are what they were, but for points on their borders
   std::int32_t mended = 0;      ///< subdomains of which only parts changed
   std::int32_t remade = 0;      ///< subdomains that were made anew
+  std::int32_t moved = 0;       ///< subdomains that went to another rank
   double scale = 1;             ///< factor on all lengths, for most_triangles
+  double imbalance = 1;         ///< time of the slowest rank over the mean, as forecast, for what the caller does next
   // Times in seconds.
   double lengths = 0;   ///< limiting and comparing lengths
   double refine = 0;    ///< making the subdomains
   double assemble = 0;  ///< putting them together
   double transfer = 0;  ///< fields, and what stayed
+  double balance = 0;   ///< moving subdomains between ranks
   double seconds = 0;   ///< all of it
 };
 
@@ -88,6 +92,14 @@ class AdaptiveMesh {
   AdaptiveMesh(AdaptiveMesh&&) noexcept;
   AdaptiveMesh& operator=(AdaptiveMesh&&) noexcept;
   ~AdaptiveMesh();
+
+  /// Loads what save() of either class has written, and goes on as the one that was saved would have, bit for bit.
+  /// Of `options` count threads, limits, progress, and size_resolution for adapt() with a function. Throws InputError,
+  /// naming the version of a file that another driftmesh wrote, and FileError.
+  [[nodiscard]] static AdaptiveMesh load(const std::string& path, const MeshOptions& options = {});
+  /// Writes plan, subdomains and fields into one HDF5 file, which appears when it is complete. Throws FileError, and
+  /// InputError for a path that cannot hold a regular file.
+  void save(const std::string& path);
 
   /// The present mesh, valid until the next call of adapt().
   [[nodiscard]] const Mesh& mesh() const;
@@ -122,6 +134,9 @@ class AdaptiveMesh {
   [[nodiscard]] std::span<double> field(const std::string& name);
   [[nodiscard]] std::span<const double> field(const std::string& name) const;
 
+  /// The names of all fields, ascending, each with its place.
+  [[nodiscard]] std::map<std::string, FieldPlace> fields() const;
+
   // After adapt():
 
   /// For each point of the present mesh the number in the last one of the point at the same place; -1: it is new.
@@ -132,6 +147,7 @@ class AdaptiveMesh {
 
  private:
   struct Impl;
+  explicit AdaptiveMesh(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
 

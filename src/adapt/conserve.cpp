@@ -8,6 +8,8 @@
 
 #include "adapt/interpolate.hpp"
 #include "adapt/overlaps.hpp"
+#include "adapt/sums_at_points.hpp"
+#include "base/bytes.hpp"
 #include "geometry/triangle_geometry.hpp"
 
 namespace driftmesh::adapt {
@@ -191,12 +193,11 @@ class AtCorners final : public OnItsWay {
 class AtPoints final : public OnItsWay {
  public:
   AtPoints(const Lineage& lineage, const ConservedField& field)
-      : OnItsWay(lineage, field), shares_(lineage.subdomains()) {}
+      : OnItsWay(lineage, field), shares_(lineage.after().parts.size()) {}
 
   void take(SubdomainId s, const Lineage::Change& change, const Overlaps& overlaps) override {
     Share& share = shares_[s];
     const std::size_t vertices = change.new_mesh.points.size();
-    share.point.assign(change.new_place.begin(), change.new_place.end());
     share.moments.assign(vertices * components(), 0);
     share.mass.assign(vertices, 0);
     share.changed.assign(vertices, false);
@@ -205,21 +206,17 @@ class AtPoints final : public OnItsWay {
   }
 
   [[nodiscard]] std::vector<double> values() override {
-    const std::size_t points = lineage().new_points();
-    Share sum{.point = {},
-              .moments = std::vector<double>(points * components()),
-              .mass = std::vector<double>(points),
-              .changed = std::vector<bool>(points, false)};
-    for (const Share& share : shares_) add(share, sum);
+    SumsAtPoints sums(lineage().after().piece, width());
+    for (const SubdomainId s : lineage().after().here) add(s, sums);
+    const std::vector<double> sum = sums.take(lineage().ranks());
     std::vector<double> values = interpolated_at_points(lineage(), old(), components());
-    for (std::size_t k = 0; k < components(); ++k) correct(sum, k, values);
+    correct(sum, values);
     return values;
   }
 
  private:
-  /// The part of a subdomain: sums over those that share a point are formed in the order of their numbers.
+  /// The part of a subdomain, at its vertices.
   struct Share {
-    std::vector<std::int32_t> point;
     std::vector<double> moments;  ///< integrals of the field with the function of each point
     std::vector<double> mass;     ///< integrals of these functions
     std::vector<bool> changed;    ///< whether a triangle at the point does not stay
@@ -263,37 +260,85 @@ class AtPoints final : public OnItsWay {
     }
   }
 
-  void add(const Share& share, Share& sum) const {
-    for (std::size_t v = 0; v < share.point.size(); ++v) {
-      if (share.point[v] == kNone) continue;
-      const std::size_t i = to_index(share.point[v]);
-      sum.mass[i] += share.mass[v];
-      if (share.changed[v]) sum.changed[i] = true;
-      for (std::size_t k = 0; k < components(); ++k)
-        sum.moments[i * components() + k] += share.moments[v * components() + k];
+  // At each point: the subdomains where it has changed, its mass, and the moment of each component.
+  static constexpr std::size_t kChanged = 0, kMass = 1, kMoments = 2;
+  [[nodiscard]] std::size_t width() const { return kMoments + components(); }
+
+  void add(SubdomainId s, SumsAtPoints& sums) const {
+    const Share& share = shares_[s];
+    const IdVector<VertexId, std::int32_t>& places = lineage().after().places[s];
+    std::vector<double> own(width());
+    for (const VertexId v : ids_of(places)) {
+      if (places[v] == kNone) continue;
+      own[kChanged] = share.changed[to_index(v)] ? 1 : 0;
+      own[kMass] = share.mass[to_index(v)];
+      std::copy_n(share.moments.begin() + to_index(v) * components(), components(), own.begin() + kMoments);
+      sums.add(s, places[v], own);
     }
   }
 
-  /// Moves the values of a component at points that have changed toward the lumped projection.
-  void correct(const Share& sum, std::size_t k, std::vector<double>& values) const {
-    const auto visit = [&](const auto& move) {
-      for (std::size_t i = 0; i < sum.mass.size(); ++i) {
-        if (!sum.changed[i]) continue;
-        double& value = values[i * components() + k];
-        move(sum.moments[i * components() + k] - sum.mass[i] * value, sum.mass[i], value);
-      }
-    };
+  /// How far the values at the points of a subdomain, or of all, are from the lumped projection, as integrals.
+  struct Steps {
     double missing = 0, upward = 0, downward = 0;
-    visit([&](double step, double /*mass*/, double& /*value*/) {
+    void add(double step) {
       missing += step;
       (step > 0 ? upward : downward) += step;
-    });
-    const double possible = missing > 0 ? upward : downward;
-    if (possible == 0) return;
-    const double share = std::clamp(missing / possible, 0.0, 1.0);
-    visit([&](double step, double mass, double& value) {
-      if ((step > 0) == (missing > 0)) value += share * step / mass;
-    });
+    }
+    void add(const Steps& more) {
+      missing += more.missing;
+      upward += more.upward;
+      downward += more.downward;
+    }
+    /// The part of each step in the direction of what is missing that makes up for it.
+    [[nodiscard]] double share() const {
+      const double possible = missing > 0 ? upward : downward;
+      return possible == 0 ? 0 : std::clamp(missing / possible, 0.0, 1.0);
+    }
+  };
+
+  [[nodiscard]] double step_at(const std::vector<double>& sum, std::size_t i, std::size_t k, double value) const {
+    const double* const at = &sum[i * width()];
+    return at[kMoments + k] - at[kMass] * value;
+  }
+
+  /// Of each component, over all points that have changed, subdomain by subdomain. Collective.
+  [[nodiscard]] std::vector<Steps> all_steps(const std::vector<double>& sum, const std::vector<double>& values) const {
+    const Generation& after = lineage().after();
+    ByteWriter own;
+    for (const SubdomainId s : after.here) {
+      std::vector<Steps> steps(components());
+      for (const std::int32_t place : after.places[s]) {
+        if (place == kNone || lineage().lowest_at(place) != s || sum[to_index(place) * width() + kChanged] == 0)
+          continue;
+        for (std::size_t k = 0; k < components(); ++k)
+          steps[k].add(step_at(sum, to_index(place), k, values[to_index(place) * components() + k]));
+      }
+      own.value(s);
+      own.array(steps);
+    }
+    IdVector<SubdomainId, std::vector<Steps>> of_each(after.parts.size());
+    for (const Bytes& bytes : lineage().ranks().bytes_of_all(own.take()))
+      for (ByteReader reader(bytes); !reader.at_end();) {
+        const auto s = reader.value<SubdomainId>();
+        reader.array(of_each.at(s));
+      }
+    std::vector<Steps> all(components());
+    for (const std::vector<Steps>& steps : of_each)
+      for (std::size_t k = 0; k < components(); ++k) all[k].add(steps.at(k));
+    return all;
+  }
+
+  /// Moves values at points that have changed toward the lumped projection.
+  void correct(const std::vector<double>& sum, std::vector<double>& values) const {
+    const std::vector<Steps> all = all_steps(sum, values);
+    for (std::size_t i = 0; i < lineage().new_points(); ++i) {
+      const double* const at = &sum[i * width()];
+      for (std::size_t k = 0; at[kChanged] > 0 && k < components(); ++k) {
+        double& value = values[i * components() + k];
+        const double step = step_at(sum, i, k, value);
+        if ((step > 0) == (all[k].missing > 0)) value += all[k].share() * step / at[kMass];
+      }
+    }
   }
 
   IdVector<SubdomainId, Share> shares_;

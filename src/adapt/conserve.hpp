@@ -23,7 +23,7 @@ struct ConservedField {
 /// At triangles: the mean of what a triangle overlaps. At corners: the L2 projection, brought closer to its mean where
 /// it would exceed what it overlaps. At points, linear between them: interpolation, brought closer to the lumped
 /// projection (Farrell and others 2009) just as far as conserves the integral, where that moves it in the right
-/// direction; exact for a linear field.
+/// direction; exact for a linear field. Collective.
 [[nodiscard]] std::vector<std::vector<double>> conserved(const Lineage& lineage,
                                                          std::span<const ConservedField> fields);
 

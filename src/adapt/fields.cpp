@@ -1,9 +1,11 @@
 #include "adapt/fields.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "adapt/conserve.hpp"
 #include "adapt/interpolate.hpp"
+#include "adapt/shared_points.hpp"
 #include "driftmesh/error.hpp"
 
 namespace driftmesh::adapt {
@@ -13,14 +15,33 @@ Field make_field(const Mesh& mesh, const std::string& name, std::vector<double> 
   const bool at_points = place == FieldPlace::kPoints, at_corners = place == FieldPlace::kCorners;
   const std::size_t places = at_points ? mesh.points.size() : (at_corners ? 3 : 1) * mesh.triangles.size();
   const char* const what = at_points ? "points" : at_corners ? "corners of triangles" : "triangles";
-  if (values.empty() || values.size() % places != 0)
+  const bool fits = places == 0 ? values.empty() : !values.empty() && values.size() % places == 0;
+  if (!fits)
     throw Error("attach: field '" + name + "' has " + std::to_string(values.size()) + " values for " +
                 std::to_string(places) + " " + what + "; give the same number for each of the present mesh");
   if (!at_points && how != Transfer::kConserve)
     throw Error("attach: field '" + name + "' has values at " + what +
                 ", which are not interpolated; let their integrals be conserved");
-  const std::size_t components = values.size() / places;
+  const std::size_t components = places == 0 ? 0 : values.size() / places;
   return {place, how, components, std::move(values)};
+}
+
+void take_from_owners(Fields& fields, const DistributedPiece& piece, Ranks& ranks) {
+  const auto visit = [&](std::int32_t point, const auto& value) {
+    for (auto& [name, field] : fields)
+      if (field.place == FieldPlace::kPoints)
+        std::for_each_n(field.values.begin() + to_index(point) * field.components, field.components, value);
+  };
+  tell_at_shared_points(
+      ranks, piece,
+      [&](std::int32_t point, ByteWriter& writer) { visit(point, [&](double value) { writer.value(value); }); },
+      [&](std::int32_t point, ByteReader& reader, Rank from) {
+        const bool counts = piece.owners[to_index(point)] == from;
+        visit(point, [&](double& value) {
+          const auto theirs = reader.value<double>();
+          if (counts) value = theirs;
+        });
+      });
 }
 
 Fields carried(const Fields& fields, const Lineage& lineage) {

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "adapt/lineage.hpp"
+#include "distributed/ranks.hpp"
 #include "driftmesh/adaptive.hpp"
+#include "driftmesh/distributed_piece.hpp"
 #include "driftmesh/mesh.hpp"
 
 namespace driftmesh::adapt {
@@ -20,11 +22,15 @@ struct Field {
 };
 using Fields = std::map<std::string, Field>;
 
-/// Throws Error if the number of values does not suit the mesh, or what is asked for is not possible.
+/// Throws Error if the number of values does not suit the mesh, or what is asked for is not possible. Without places,
+/// the number of components is 0: others know it.
 [[nodiscard]] Field make_field(const Mesh& mesh, const std::string& name, std::vector<double> values, FieldPlace place,
                                Transfer how);
 
-/// The fields on the new mesh.
+/// Gives fields at points that ranks share the values of the points' owners on all of them. Collective.
+void take_from_owners(Fields& fields, const DistributedPiece& piece, Ranks& ranks);
+
+/// The fields on the new mesh. Collective.
 [[nodiscard]] Fields carried(const Fields& fields, const Lineage& lineage);
 
 }  // namespace driftmesh::adapt

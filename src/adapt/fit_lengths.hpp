@@ -4,6 +4,7 @@
 #include <span>
 
 #include "adapt/generation.hpp"
+#include "distributed/ranks.hpp"
 #include "driftmesh/adaptive.hpp"
 #include "driftmesh/size_field.hpp"
 #include "mesh/bounds.hpp"
@@ -17,10 +18,11 @@ struct Wanted {
   double scale = 1;                    ///< factor that made them fit, for AdaptiveOptions::most_triangles
 };
 
-/// The lengths that a caller asks for at points, as options want them. Throws Error unless there is a positive one for
-/// each point of the generation.
+/// The lengths that a caller asks for at points, as options want them; where ranks ask for different ones at a point
+/// that they share, the shortest. Throws Error, on all ranks, unless there is a positive one for each point of the
+/// piece.
 [[nodiscard]] Wanted fit_lengths(const Generation& present, const QualityBounds& bounds, const AdaptiveOptions& options,
-                                 std::span<const double> lengths, std::int32_t threads);
+                                 std::span<const double> lengths, std::int32_t threads, Ranks& ranks);
 
 /// A size field of a caller, as options want it.
 class FittedField final : public SizeField {
@@ -46,6 +48,6 @@ class FittedField final : public SizeField {
 
 /// The same for a size field, which is set to the scale that fits. It is asked by this many threads.
 [[nodiscard]] Wanted fit_field(const Generation& present, const QualityBounds& bounds, const AdaptiveOptions& options,
-                               FittedField& field, std::int32_t threads);
+                               FittedField& field, std::int32_t threads, Ranks& ranks);
 
 }  // namespace driftmesh::adapt

@@ -3,24 +3,28 @@
 #include <utility>
 
 #include "distributed/assembly.hpp"
-#include "distributed/exchange.hpp"
 
 namespace driftmesh::adapt {
 
-Generation assemble(const Decomposition& decomposition, const Pslg& pslg, Parts parts) {
-  Generation made{std::move(parts), {}, {}, {}};
+Generation assemble(const Decomposition& decomposition, const Pslg& pslg, Parts parts, Ranks& ranks) {
+  Generation made;
+  made.parts = std::move(parts);
+  for (const SubdomainId s : ids_of(made.parts))
+    if (made.is_here(s)) made.here.push_back(s);
   const HeldSubdomains held = [&](const ShowSubdomain& show) {
-    for (const SubdomainId s : ids_of(made.parts)) show(s, *made.parts[s].mesh);
+    for (const SubdomainId s : made.here) show(s, *made.parts[s].mesh);
   };
-  PieceAssembly assembly(Rank{0}, 1, decomposition, held);
-  const IdVector<Rank, Exchange*> alone{&assembly};
-  exchange_directly(alone);
+  PieceAssembly assembly(ranks.rank(), ranks.ranks(), decomposition, held);
+  ranks.run(assembly);
   PiecePlaces places;
   made.piece = assembly.piece(pslg, &places);
+  made.holders = assembly.subdomains().rank;
+  made.places.resize(made.parts.size());
+  made.first_triangle.resize(made.parts.size());
   std::int32_t triangles = 0;
-  for (const SubdomainId s : ids_of(made.parts)) {
-    made.places.push_back(std::move(places.at(s)));
-    made.first_triangle.push_back(triangles);
+  for (const SubdomainId s : made.here) {
+    made.places[s] = std::move(places.at(s));
+    made.first_triangle[s] = triangles;
     triangles += static_cast<std::int32_t>(made.parts[s].mesh->mesh.live_triangles());
   }
   return made;

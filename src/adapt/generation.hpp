@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "adapt/linear_lengths.hpp"
 #include "decompose/decomposition.hpp"
 #include "decompose/subdomain_mesh.hpp"
 #include "distributed/piece_places.hpp"
+#include "distributed/ranks.hpp"
 #include "driftmesh/distributed_piece.hpp"
 #include "driftmesh/pslg.hpp"
 
@@ -14,7 +16,7 @@ namespace driftmesh::adapt {
 
 /// The mesh of a subdomain in one generation. It never changes: generations share those of subdomains that stay.
 struct Part {
-  std::shared_ptr<const SubdomainMesh> mesh;
+  std::shared_ptr<const SubdomainMesh> mesh;  ///< null: it is on another rank, and nothing else is known here, either
   double asked = 0;    ///< triangles that lengths asked of it when it was made or mended (see Demand)
   double density = 0;  ///< triangles that it had for each asked one when it was last made from its outline; 0: unknown
   std::shared_ptr<const Lengths> made_for{};  ///< lengths by which its vertices were made; null: by none
@@ -22,15 +24,20 @@ struct Part {
 using Parts = IdVector<SubdomainId, Part>;
 using LengthsOfParts = IdVector<SubdomainId, Lengths>;
 
-/// A mesh in parts, and as one whole.
+/// A mesh in parts, each on one rank, and as one piece on each rank.
 struct Generation {
   Parts parts;
   DistributedPiece piece;
+  std::vector<SubdomainId> here;        ///< those on this rank, ascending
+  IdVector<SubdomainId, Rank> holders;  ///< the rank of each
+  // Of parts that are here:
   IdVector<SubdomainId, IdVector<VertexId, std::int32_t>> places;  ///< see PiecePlaces
   IdVector<SubdomainId, std::int32_t> first_triangle;              ///< that each part has in the piece
+
+  [[nodiscard]] bool is_here(SubdomainId s) const { return parts[s].mesh != nullptr; }
 };
 
-/// `pslg`: see PieceAssembly::piece.
-[[nodiscard]] Generation assemble(const Decomposition& decomposition, const Pslg& pslg, Parts parts);
+/// `pslg`: see PieceAssembly::piece. Collective.
+[[nodiscard]] Generation assemble(const Decomposition& decomposition, const Pslg& pslg, Parts parts, Ranks& ranks);
 
 }  // namespace driftmesh::adapt

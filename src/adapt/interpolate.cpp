@@ -17,6 +17,7 @@ std::vector<double> interpolated_at_points(const Lineage& lineage, const std::ve
       value = std::clamp(from.weight[0] * at(0) + from.weight[1] * at(1) + from.weight[2] * at(2), least, most);
     }
   });
+  lineage.settle_shared(values, components);
   return values;
 }
 

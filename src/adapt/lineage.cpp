@@ -1,5 +1,8 @@
 #include "adapt/lineage.hpp"
 
+#include <algorithm>
+
+#include "adapt/shared_points.hpp"
 #include "base/in_turns.hpp"
 
 namespace driftmesh::adapt {
@@ -15,29 +18,53 @@ IdVector<TriangleId, std::int32_t> numbers_of_triangles(const Triangulation& mes
 
 }  // namespace
 
-Lineage::Lineage(const Generation& before, const Generation& after, std::int32_t threads)
+Lineage::Lineage(const Generation& before, const Generation& after, std::int32_t threads, Ranks& ranks)
     : before_(before),
       after_(after),
       threads_(threads),
+      ranks_(ranks),
       descents_(after.parts.size()),
-      owner_(after.piece.mesh.points.size(), kNoSubdomain) {
+      lowest_here_(after.piece.mesh.points.size(), kNoSubdomain) {
   for_each_part([&](SubdomainId s) {
     if (!is_the_same(s)) descents_[s] = trace(before.parts[s].mesh->mesh, after.parts[s].mesh->mesh);
   });
-  for (const SubdomainId s : ids_of(after.places))
+  for (const SubdomainId s : after.here)
     for (const std::int32_t place : after.places[s])
-      if (place != kNone && owner_[to_index(place)] == kNoSubdomain) owner_[to_index(place)] = s;
+      if (place != kNone && lowest_here_[to_index(place)] == kNoSubdomain) lowest_here_[to_index(place)] = s;
+  lowest_ = lowest_here_;
+  tell_at_shared_points(
+      ranks, after.piece, [&](std::int32_t point, ByteWriter& writer) { writer.value(lowest_here_[to_index(point)]); },
+      [&](std::int32_t point, ByteReader& reader, Rank /*from*/) {
+        SubdomainId& lowest = lowest_[to_index(point)];
+        lowest = std::min(lowest, reader.value<SubdomainId>());
+      });
 }
 
 void Lineage::for_each_part(const std::function<void(SubdomainId)>& work) const {
-  in_turns(after_.parts.size(), to_index(threads_), [&](std::size_t s) { work(static_cast<SubdomainId>(s)); });
+  in_turns(after_.here.size(), to_index(threads_), [&](std::size_t i) { work(after_.here[i]); });
+}
+
+void Lineage::settle_shared(std::vector<double>& values, std::size_t components) const {
+  const auto at = [&](std::int32_t point) { return values.begin() + to_index(point) * components; };
+  tell_at_shared_points(
+      ranks_, after_.piece,
+      [&](std::int32_t point, ByteWriter& writer) {
+        std::for_each_n(at(point), components, [&](double value) { writer.value(value); });
+      },
+      [&](std::int32_t point, ByteReader& reader, Rank from) {
+        const bool counts = after_.holders[lowest_at(point)] == from;
+        std::for_each_n(at(point), components, [&](double& value) {
+          const auto theirs = reader.value<double>();
+          if (counts) value = theirs;
+        });
+      });
 }
 
 void Lineage::visit_points(const std::function<void(std::int32_t, const Source&)>& visit) const {
   for_each_part([&](SubdomainId s) {
     const IdVector<VertexId, std::int32_t>&old = before_.places[s], &places = after_.places[s];
     for (const VertexId v : ids_of(places)) {
-      if (places[v] == kNone || owner_[to_index(places[v])] != s) continue;
+      if (places[v] == kNone || lowest_here_[to_index(places[v])] != s) continue;
       if (is_the_same(s)) {
         visit(places[v], {{old[v], old[v], old[v]}, {1, 0, 0}, true});
         continue;

@@ -8,15 +8,18 @@
 
 #include "adapt/descent.hpp"
 #include "adapt/generation.hpp"
+#include "distributed/ranks.hpp"
 
 namespace driftmesh::adapt {
 
-/// What one generation has from the one before. Both outlive the object.
+/// What one generation has from the one before, on this rank, which holds the same subdomains in both. All arguments
+/// outlive the object. Collective.
 class Lineage {
  public:
-  Lineage(const Generation& before, const Generation& after, std::int32_t threads);
+  Lineage(const Generation& before, const Generation& after, std::int32_t threads, Ranks& ranks);
 
-  [[nodiscard]] std::size_t subdomains() const { return after_.parts.size(); }
+  [[nodiscard]] const Generation& after() const { return after_; }
+  [[nodiscard]] Ranks& ranks() const { return ranks_; }
   [[nodiscard]] std::size_t new_points() const { return after_.piece.mesh.points.size(); }
   [[nodiscard]] std::size_t new_triangles() const { return after_.piece.mesh.triangles.size(); }
 
@@ -26,8 +29,8 @@ class Lineage {
     std::array<double, 3> weight{};
     bool stays = false;  ///< it is the first of them
   };
-  /// Calls visit(point, source) for each point of the new mesh, for several at once. That a border divides two
-  /// subdomains does not matter: a point on it is one of the subdomain with the lower number.
+  /// Calls visit(point, source) for each point of the new piece, for several at once. That a border divides two
+  /// subdomains does not matter: a point on it is one of the subdomain with the lowest number on this rank.
   void visit_points(const std::function<void(std::int32_t, const Source&)>& visit) const;
   /// Calls visit(triangle, old, turn) for each triangle that is one of the old mesh, for several at once: its corner i
   /// is corner i + turn (modulo 3) of the old one.
@@ -44,7 +47,11 @@ class Lineage {
     const IdVector<VertexId, std::int32_t>& old_place;  ///< where each vertex is among all points
     const IdVector<VertexId, std::int32_t>& new_place;
   };
-  /// Calls visit for each subdomain, for several at once.
+  /// The subdomain with the lowest number of all that have a point of the new piece, on whatever rank.
+  [[nodiscard]] SubdomainId lowest_at(std::int32_t point) const { return lowest_[to_index(point)]; }
+  /// Replaces what this rank has found at points that it shares by what the rank of lowest_at() has. Collective.
+  void settle_shared(std::vector<double>& values, std::size_t components) const;
+  /// Calls visit for each subdomain here, for several at once.
   void visit_parts(const std::function<void(SubdomainId, const Change&)>& visit) const;
   /// The old point at a vertex that stays.
   [[nodiscard]] std::int32_t old_point_of(SubdomainId s, VertexId v) const {
@@ -62,8 +69,10 @@ class Lineage {
   const Generation& before_;
   const Generation& after_;
   std::int32_t threads_;
+  Ranks& ranks_;
   IdVector<SubdomainId, Descent> descents_;  // empty where the part is the same
-  std::vector<SubdomainId> owner_;           // the subdomain of each new point
+  std::vector<SubdomainId> lowest_here_;     // at each new point, of the subdomains of this rank
+  std::vector<SubdomainId> lowest_;
 };
 
 }  // namespace driftmesh::adapt

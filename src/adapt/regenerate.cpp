@@ -8,10 +8,10 @@
 
 #include "adapt/agree.hpp"
 #include "adapt/mend.hpp"
+#include "base/bytes.hpp"
 #include "base/in_turns.hpp"
 #include "mesh/size_bound.hpp"
 #include "migration/subdomain.hpp"
-#include "runtime/plan_run.hpp"
 #include "runtime/threads/refinement_in_rounds.hpp"
 
 namespace driftmesh::adapt {
@@ -38,22 +38,25 @@ class Side {
 /// What the subdomains of a generation begin with.
 class Beginnings {
  public:
-  Beginnings(const RunPlan& plan, const Parts& present, const Wanted& wanted, const IdVector<SubdomainId, Fate>& fates,
-             std::int32_t threads)
+  Beginnings(const RunPlan& plan, const Generation& present, const Wanted& wanted,
+             const IdVector<SubdomainId, Fate>& fates, std::int32_t threads, Ranks& ranks)
       : decomposition_(plan.decomposition),
         bounds_(plan.bounds),
         present_(present),
         wanted_(wanted),
         fates_(fates),
-        keep_(present.size()),
-        fields_(present.size()),
-        beginnings_(present.size()) {
+        keep_(present.parts.size()),
+        fields_(present.parts.size()),
+        beginnings_(present.parts.size()) {
     bounds_.size = wanted.between;
     for (const GlobalRootId r : ids_of(decomposition_.roots))
-      if (is_open(r)) want_on(r);
-    in_turns(present.size(), to_index(threads), [&](std::size_t s) { begin(static_cast<SubdomainId>(s)); });
-    for (const GlobalRootId r : ids_of(decomposition_.roots))
-      if (is_open(r)) agree_on(r);
+      if (is_open(r)) open_.push_back(r);
+    ranks.agree([&] {
+      for (const GlobalRootId r : open_) want_on(r);
+      in_turns(present.here.size(), to_index(threads), [&](std::size_t i) { begin(present.here[i]); });
+    });
+    hear_of_sides(ranks);
+    for (const GlobalRootId r : open_) agree_on(r);
   }
 
   [[nodiscard]] const IdVector<SubdomainId, Beginning>& all() const { return beginnings_; }
@@ -61,29 +64,34 @@ class Beginnings {
   [[nodiscard]] PresplitPaths take_paths() { return std::move(points_); }
 
  private:
+  [[nodiscard]] const SubdomainMesh& part(SubdomainId s) const { return *present_.parts[s].mesh; }
+
+  /// Whether an interface of this rank may get other points.
   [[nodiscard]] bool is_open(GlobalRootId r) const {
     const Decomposition::Root& root = decomposition_.roots[r];
-    return root.is_interface() && (fates_[root.left] != Fate::kKeep || fates_[root.right] != Fate::kKeep);
+    return root.is_interface() && (present_.is_here(root.left) || present_.is_here(root.right)) &&
+           (fates_[root.left] != Fate::kKeep || fates_[root.right] != Fate::kKeep);
   }
 
   /// The points that an interface is to have, as a function of the lengths along it. A side that is mended keeps these,
   /// and beside a side that is kept all that it has.
   void want_on(GlobalRootId r) {
     const Decomposition::Root& root = decomposition_.roots[r];
-    const Side left(*present_[root.left].mesh, r);
+    const SubdomainId seen = present_.is_here(root.left) ? root.left : root.right;
     std::vector<dyadic::Path>& points = points_[r];
     if (wanted_.between != nullptr) {
       points = presplit_paths(decomposition_, r, bounds_);
       std::ranges::sort(points);
     } else {
       const SizeBounds sizes = bounds_;
-      points = left.wants(wanted_.lengths[root.left],
+      points = Side(part(seen), r)
+                   .wants(wanted_.lengths[seen],
                           std::min(sizes.twice_area(root.left_region), sizes.twice_area(root.right_region)));
     }
     const bool one_is_kept = fates_[root.left] == Fate::kKeep || fates_[root.right] == Fate::kKeep;
     for (const SubdomainId s : {root.left, root.right})
-      if (fates_[s] == Fate::kMend) {
-        const Side side(*present_[s].mesh, r);
+      if (fates_[s] == Fate::kMend && present_.is_here(s)) {
+        const Side side(part(s), r);
         keep_[s][side.root()] = one_is_kept ? side.has() : points;
       }
   }
@@ -91,18 +99,43 @@ class Beginnings {
   void begin(SubdomainId s) {
     Beginning& beginning = beginnings_[s];
     if (wanted_.between == nullptr) {
-      fields_[s] = std::make_unique<LinearLengths>(present_[s].mesh->mesh, wanted_.lengths[s]);
+      fields_[s] = std::make_unique<LinearLengths>(part(s).mesh, wanted_.lengths[s]);
       beginning.size = fields_[s].get();
     } else {
       beginning.size = wanted_.between;
     }
     if (fates_[s] == Fate::kRemake) return;
-    beginning.mesh = present_[s].mesh;
+    beginning.mesh = present_.parts[s].mesh;
     beginning.lengths = &wanted_.lengths[s];
     if (fates_[s] == Fate::kKeep) return;
-    Mended mended = mend(*present_[s].mesh, *present_[s].made_for, wanted_.lengths[s], bounds_, keep_[s]);
+    Mended mended = mend(part(s), *present_.parts[s].made_for, wanted_.lengths[s], bounds_, keep_[s]);
     beginning.mesh = std::move(mended.mesh);
     beginning.open = std::move(mended.open);
+  }
+
+  /// The points on an interface with which a side here begins.
+  [[nodiscard]] std::vector<dyadic::Path> begins_with(SubdomainId s, GlobalRootId r) const {
+    return beginnings_[s].mesh ? Side(*beginnings_[s].mesh, r).has() : std::vector<dyadic::Path>();
+  }
+
+  /// The same for sides on other ranks.
+  void hear_of_sides(Ranks& ranks) {
+    std::map<Rank, ByteWriter> to_others;
+    for (const GlobalRootId r : open_) {
+      const Decomposition::Root& root = decomposition_.roots[r];
+      if (present_.is_here(root.left) == present_.is_here(root.right)) continue;
+      const bool left_is_here = present_.is_here(root.left);
+      ByteWriter& writer = to_others[present_.holders[left_is_here ? root.right : root.left]];
+      writer.value(r);
+      writer.array(begins_with(left_is_here ? root.left : root.right, r));
+    }
+    std::vector<Mail> mail;
+    for (auto& [rank, writer] : to_others) mail.push_back({rank, writer.take()});
+    for (const Mail& from : ranks.swap(std::move(mail)))
+      for (ByteReader reader(from.bytes); !reader.at_end();) {
+        const auto r = reader.value<GlobalRootId>();
+        reader.array(across_[r]);
+      }
   }
 
   /// It gets the points that it is to have, and those that a side begins with. Sides that lack some are told.
@@ -112,8 +145,7 @@ class Beginnings {
     const std::array<SubdomainId, 2> sides{root.left, root.right};
     std::array<std::vector<dyadic::Path>, 2> had;
     for (const std::size_t i : {0, 1}) {
-      if (!beginnings_[sides[i]].mesh) continue;
-      had[i] = Side(*beginnings_[sides[i]].mesh, r).has();
+      had[i] = present_.is_here(sides[i]) ? begins_with(sides[i], r) : across_[r];
       points = united(points, had[i]);
     }
     for (const std::size_t i : {0, 1}) {
@@ -126,39 +158,30 @@ class Beginnings {
 
   const Decomposition& decomposition_;
   QualityBounds bounds_;
-  const Parts& present_;
+  const Generation& present_;
   const Wanted& wanted_;
   const IdVector<SubdomainId, Fate>& fates_;
   IdVector<SubdomainId, PointsToKeep> keep_;
   IdVector<SubdomainId, std::unique_ptr<LinearLengths>> fields_;
+  std::vector<GlobalRootId> open_;
+  std::map<GlobalRootId, std::vector<dyadic::Path>> across_;  // points with which sides on other ranks begin
   PresplitPaths points_;
   IdVector<SubdomainId, Beginning> beginnings_;
 };
-
-/// Gives subdomains to threads in blocks of about equal work. Which thread has which changes nothing but time.
-void deal(RunPlan& plan, std::int32_t threads) {
-  const double all = std::max(forecast_of(plan), 1.0);
-  double before = 0;
-  for (const SubdomainId s : ids_of(plan.owners)) {
-    plan.owners[s] = static_cast<Rank>(std::min(threads - 1, static_cast<std::int32_t>(before / all * threads)));
-    before += plan.decomposition.subdomains[s].predicted;
-  }
-  if (threads == 1) plan.policy.reset();
-  plan.layout = plan.policy ? layout_of(plan, threads) : nullptr;
-}
 
 double work_in(const Demand& demand, Fate fate) {
   if (fate == Fate::kKeep) return 0;
   return fate == Fate::kMend ? demand.changes : demand.triangles;
 }
 
-RunPlan plan_of_generation(const RunPlan& first, const IdVector<SubdomainId, Demand>& demands,
-                           const IdVector<SubdomainId, Fate>& fates, std::int32_t threads) {
+RunPlan plan_of_generation(const RunPlan& first, const Generation& present,
+                           const IdVector<SubdomainId, Demand>& demands, const IdVector<SubdomainId, Fate>& fates,
+                           std::int32_t threads) {
   RunPlan plan = first;
   for (const SubdomainId s : ids_of(fates)) plan.decomposition.subdomains[s].predicted = work_in(demands[s], fates[s]);
   plan.work.sleep = false;
   plan.presplit = true;
-  deal(plan, threads);
+  deal_to_threads(plan, threads, [&](SubdomainId s) { return present.is_here(s); });
   return plan;
 }
 
@@ -196,21 +219,23 @@ Fate fate_of(const Part& part, const Demand& demand, double coarsening) {
   return part.made_for && demand.changes < triangles / 2 && !is_worn(mesh) ? Fate::kMend : Fate::kRemake;
 }
 
-Parts regenerate(const RunPlan& first, const Parts& present, const Wanted& wanted,
+Parts regenerate(const RunPlan& first, const Generation& present, const Wanted& wanted,
                  const IdVector<SubdomainId, Demand>& demands, const IdVector<SubdomainId, Fate>& fates,
-                 std::int32_t threads, const Hooks& hooks) {
-  RunPlan plan = plan_of_generation(first, demands, fates, threads);
-  Beginnings beginnings(plan, present, wanted, fates, threads);
+                 std::int32_t threads, Ranks& ranks, const Hooks& hooks) {
+  RunPlan plan = plan_of_generation(first, present, demands, fates, threads);
+  Beginnings beginnings(plan, present, wanted, fates, threads, ranks);
   plan.beginnings = &beginnings.all();
   plan.presplit_paths = std::make_shared<const PresplitPaths>(beginnings.take_paths());
 
-  const double forecast = forecast_of(plan);
-  RefinementInRounds::Watch watch{.check = hooks.check};
+  double forecast = 0;
+  for (const SubdomainId s : present.here) forecast += plan.decomposition.subdomains[s].predicted;
+  RefinementInRounds::Watch watch{.check = hooks.check, .check_all = hooks.check_all};
   if (hooks.progress) watch.progress = [&](std::int64_t triangles) { hooks.progress(triangles, forecast); };
-  RefinementInRounds rounds(plan, std::vector<const SizeField*>(to_index(threads)), std::move(watch));
+  RefinementInRounds rounds(plan, std::vector<const SizeField*>(to_index(threads)), std::move(watch),
+                            HeldOnRanks{ranks, present.holders});
   rounds.run();
 
-  Parts parts = present;
+  Parts parts = present.parts;
   for (auto& [s, subdomain] : rounds.subdomains()) {
     Part& part = parts[s];
     if (fates[s] != Fate::kKeep) part.asked = demands[s].triangles;
@@ -221,8 +246,8 @@ Parts regenerate(const RunPlan& first, const Parts& present, const Wanted& wante
     }
     Lengths lengths = subdomain.lengths();
     part.mesh = std::make_shared<const SubdomainMesh>(subdomain.take_mesh());
-    if (begun && present[s].made_for)
-      lengths = lengths_of_making(part.mesh->mesh, lengths, begun->mesh, *present[s].made_for, fates[s] == Fate::kMend);
+    if (const auto& made_for = present.parts[s].made_for; begun && made_for)
+      lengths = lengths_of_making(part.mesh->mesh, lengths, begun->mesh, *made_for, fates[s] == Fate::kMend);
     part.made_for = std::make_shared<const Lengths>(std::move(lengths));
     if (fates[s] == Fate::kRemake)
       part.density = part.asked > 0 ? static_cast<double>(part.mesh->mesh.live_triangles()) / part.asked : 0;

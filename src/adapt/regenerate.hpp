@@ -27,12 +27,14 @@ enum class Fate : std::uint8_t {
 struct Hooks {
   std::function<void(std::int64_t triangles, double forecast)> progress{};  ///< by the calling thread
   std::function<void(std::int64_t triangles)> check{};                      ///< by all threads at once
+  std::function<void(std::int64_t triangles)> check_all{};  ///< from time to time, with those of all ranks
 };
 
-/// The parts of the next generation. Does not depend on the number of threads. `plan`: that of the first generation, of
-/// which the bounds without a size field count. Throws what refinement and hooks throw.
-[[nodiscard]] Parts regenerate(const RunPlan& plan, const Parts& present, const Wanted& wanted,
+/// The parts of the next generation. Does not depend on the number of threads and ranks. `plan`: that of the first
+/// generation, of which the bounds without a size field count. Demands and fates are those of all parts. Throws what
+/// refinement and hooks throw, on all ranks. Collective.
+[[nodiscard]] Parts regenerate(const RunPlan& plan, const Generation& present, const Wanted& wanted,
                                const IdVector<SubdomainId, Demand>& demands, const IdVector<SubdomainId, Fate>& fates,
-                               std::int32_t threads, const Hooks& hooks);
+                               std::int32_t threads, Ranks& ranks, const Hooks& hooks);
 
 }  // namespace driftmesh::adapt

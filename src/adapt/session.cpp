@@ -1,11 +1,17 @@
 #include "adapt/session.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <utility>
 
 #include "adapt/demand.hpp"
+#include "adapt/error_lengths.hpp"
 #include "adapt/lineage.hpp"
+#include "adapt/of_all_parts.hpp"
+#include "adapt/parcel.hpp"
+#include "base/bytes.hpp"
+#include "base/formatted.hpp"
 #include "base/in_turns.hpp"
 #include "base/stopwatch.hpp"
 #include "driftmesh/error.hpp"
@@ -26,76 +32,211 @@ void require_sound(const AdaptiveOptions& options) {
   require(options.most_triangles >= 0, "most_triangles", options.most_triangles, "at least 0");
 }
 
+Fields fields_without_values(const Fields& fields) {
+  Fields all;
+  for (const auto& [name, field] : fields) all[name] = {field.place, field.how, field.components, {}};
+  return all;
+}
+
+/// Which of the sessions that rank 0 has made this one is.
+std::int64_t number_of_rank_0(Ranks& ranks) {
+  static std::atomic<std::int64_t> sessions = 0;
+  ByteWriter own;
+  own.value(++sessions);
+  return ByteReader(ranks.bytes_of_all(own.take()).front()).value<std::int64_t>();
+}
+
+/// The number that all ranks have which have any.
+std::size_t same_components(const std::string& name, std::size_t own, Ranks& ranks) {
+  ByteWriter writer;
+  writer.value(std::uint64_t{own});
+  std::vector<std::uint64_t> of_ranks;
+  for (const Bytes& bytes : ranks.bytes_of_all(writer.take())) ByteReader(bytes).value(of_ranks.emplace_back());
+  const auto known = std::ranges::find_if(of_ranks, [](std::uint64_t n) { return n > 0; });
+  ranks.agree([&] {
+    const auto other =
+        std::ranges::find_if(known, of_ranks.end(), [&](std::uint64_t n) { return n > 0 && n != *known; });
+    if (other != of_ranks.end())
+      throw Error(
+          formatted("attach: field '{}' has {} values at each place on rank {}, and {} on rank {}; give the same "
+                    "number on each rank",
+                    name, *known, known - of_ranks.begin(), *other, other - of_ranks.begin()));
+  });
+  return known == of_ranks.end() ? 0 : static_cast<std::size_t>(*known);
+}
+
+std::string words_of(FieldPlace place, Transfer how) {
+  return std::string(place == FieldPlace::kPoints    ? "at points"
+                     : place == FieldPlace::kCorners ? "at corners"
+                                                     : "at triangles") +
+         (how == Transfer::kConserve ? ", conserving" : ", by interpolation");
+}
+
 }  // namespace
 
-Session::Session(Start start, const AdaptiveOptions& options, std::function<void(Mesh&)> finish)
+Session::Session(Start start, const AdaptiveOptions& options, std::function<void(Mesh&)> finish, const Means& means)
     : plan_(std::move(start.plan)), pslg_(std::move(start.pslg)), options_(options), finish_(std::move(finish)) {
-  require_sound(options);
-  Parts parts;
-  for (const SubdomainId s : ids_of(start.parts)) {
-    Part& part = parts.emplace_back();
-    part.mesh = std::make_shared<const SubdomainMesh>(std::move(start.parts[s]));
-    if (!start.lengths.empty()) part.made_for = std::make_shared<const Lengths>(std::move(start.lengths[s]));
+  means.ranks.agree([&] { require_sound(options); });
+  number_ = number_of_rank_0(means.ranks);
+  Parts parts(plan_.decomposition.size());
+  for (auto& [s, mesh] : start.parts) {
+    Part& part = parts[s];
+    part.mesh = std::make_shared<const SubdomainMesh>(std::move(mesh));
+    if (!start.lengths.empty()) part.made_for = std::make_shared<const Lengths>(std::move(start.lengths.at(s)));
     part.asked = demand_of(part.mesh->mesh, plan_.bounds, part.made_for ? *part.made_for : Lengths()).triangles;
     if (part.asked > 0) part.density = static_cast<double>(part.mesh->mesh.live_triangles()) / part.asked;
   }
-  present_ = assemble(plan_.decomposition, pslg_, std::move(parts));
-  finish_(present_.piece.mesh);
+  present_ = assembled(std::move(parts), means.ranks);
 }
 
-void Session::adapt(std::span<const double> lengths, std::int32_t threads, const Hooks& hooks) {
-  advance([&] { return fit_lengths(present_, plan_.bounds, options_, lengths, threads); }, threads, hooks);
+Session::Session(Saved saved, std::function<void(Mesh&)> finish, const Means& means)
+    : plan_(std::move(saved.head.plan)),
+      pslg_(std::move(saved.head.pslg)),
+      options_(saved.head.options),
+      finish_(std::move(finish)) {
+  number_ = number_of_rank_0(means.ranks);
+  report_.generation = saved.head.generation;
+  Parts parts(plan_.decomposition.size());
+  for (const auto& [s, parcel] : saved.parcels) parts[s] = parcel.part;
+  present_ = assembled(std::move(parts), means.ranks);
+  fields_ = without_values(saved.head.fields, present_.piece);
+  means.ranks.agree([&] {
+    for (const auto& [s, parcel] : saved.parcels) set_values_on(present_, s, parcel.values, fields_);
+  });
 }
 
-void Session::adapt(const SizeField& size, std::int32_t threads, const Hooks& hooks) {
+void Session::save(const std::string& path, Bytes more, const Means& means) {
+  require_same_call("save, to '" + path + "'", means.ranks);
+  take_from_owners(fields_, present_.piece, means.ranks);
+  SavedHead head{.plan = plan_,
+                 .pslg = pslg_,
+                 .options = options_,
+                 .generation = report_.generation,
+                 .fields = fields_without_values(fields_),
+                 .more = std::move(more)};
+  adapt::save(path, head, present_, fields_, means.ranks);
+}
+
+Generation Session::assembled(Parts parts, Ranks& ranks) const {
+  Generation made = assemble(plan_.decomposition, pslg_, std::move(parts), ranks);
+  ranks.agree([&] { finish_(made.piece.mesh); });
+  return made;
+}
+
+void Session::require_same_call(const std::string& call, Ranks& ranks) const {
+  if (ranks.alone()) return;
+  ByteWriter own;
+  own.text(call);
+  own.value(number_);
+  own.value(report_.generation);
+  const std::vector<Bytes> calls = ranks.bytes_of_all(own.take());
+  ranks.agree([&] {
+    for (const Rank r : first_ids<Rank>(calls.size())) {
+      if (calls[to_index(r)] == calls.front()) continue;
+      ByteReader first(calls.front()), other(calls[to_index(r)]);
+      const std::string of_first = first.text(), of_other = other.text();
+      throw Error("the ranks do not make the same call: rank 0 calls " + of_first + ", and rank " + to_string(r) +
+                  " calls " + of_other + (of_first == of_other ? " of another adaptive mesh" : "") +
+                  "; call the same function of the same object on all ranks, in the same order");
+    }
+  });
+}
+
+void Session::adapt(std::span<const double> lengths, const Means& means, const Hooks& hooks) {
+  require_same_call("adapt, with lengths", means.ranks);
+  advance([&] { return fit_lengths(present_, plan_.bounds, options_, lengths, means.threads, means.ranks); }, means,
+          hooks);
+}
+
+void Session::adapt(const SizeField& size, const Means& means, const Hooks& hooks) {
+  require_same_call("adapt, with a size", means.ranks);
   FittedField field(size, options_);
-  advance([&] { return fit_field(present_, plan_.bounds, options_, field, threads); }, threads, hooks);
+  advance([&] { return fit_field(present_, plan_.bounds, options_, field, means.threads, means.ranks); }, means, hooks);
 }
 
-void Session::advance(const std::function<Wanted()>& want, std::int32_t threads, const Hooks& hooks) {
+std::vector<double> Session::lengths_from_error(std::span<const double> indicators, double target, double order,
+                                                const Means& means) const {
+  require_same_call(formatted("lengths_from_error, with target {} and order {}", target, order), means.ranks);
+  return adapt::lengths_from_error(present_, indicators, target, order, means.ranks);
+}
+
+void Session::advance(const std::function<Wanted()>& want, const Means& means, const Hooks& hooks) {
+  Ranks& ranks = means.ranks;
+  const std::int32_t threads = means.threads;
   const Stopwatch all;
   AdaptReport report{.generation = report_.generation + 1};
   Stopwatch stage;
   const Wanted wanted = want();
   report.scale = wanted.scale;
   IdVector<SubdomainId, Demand> demands(present_.parts.size());
-  in_turns(demands.size(), to_index(threads), [&](std::size_t i) {
-    const auto s = static_cast<SubdomainId>(i);
-    const Part& part = present_.parts[s];
-    demands[s] = demand_of(part.mesh->mesh, plan_.bounds, wanted.lengths[s], wanted.between, part.made_for.get());
+  ranks.agree([&] {
+    in_turns(present_.here.size(), to_index(threads), [&](std::size_t i) {
+      const SubdomainId s = present_.here[i];
+      const Part& part = present_.parts[s];
+      demands[s] = demand_of(part.mesh->mesh, plan_.bounds, wanted.lengths[s], wanted.between, part.made_for.get());
+    });
   });
-  IdVector<SubdomainId, Fate> fates;
-  for (const SubdomainId s : ids_of(demands)) {
-    fates.push_back(fate_of(present_.parts[s], demands[s], options_.coarsening));
-    ++(fates[s] == Fate::kKeep ? report.kept : fates[s] == Fate::kMend ? report.mended : report.remade);
-  }
+  demands = of_all_parts(ranks, present_, [&](SubdomainId s) { return demands[s]; });
+  const IdVector<SubdomainId, Fate> fates = of_all_parts(
+      ranks, present_, [&](SubdomainId s) { return fate_of(present_.parts[s], demands[s], options_.coarsening); });
+  for (const Fate fate : fates)
+    ++(fate == Fate::kKeep ? report.kept : fate == Fate::kMend ? report.mended : report.remade);
   report.lengths = stage.seconds();
 
   stage = {};
-  Parts parts = regenerate(plan_, present_.parts, wanted, demands, fates, threads, hooks);
+  Parts parts = regenerate(plan_, present_, wanted, demands, fates, threads, ranks, hooks);
   report.refine = stage.seconds();
 
   stage = {};
-  Generation next = assemble(plan_.decomposition, pslg_, std::move(parts));
-  finish_(next.piece.mesh);
+  Generation next = assembled(std::move(parts), ranks);
   report.assemble = stage.seconds();
 
   stage = {};
-  const Lineage lineage(present_, next, threads);
+  take_from_owners(fields_, present_.piece, ranks);
+  const Lineage lineage(present_, next, threads, ranks);
   std::vector<std::int32_t> points = lineage.stayed_points(), triangles = lineage.stayed_triangles();
   Fields fields = carried(fields_, lineage);
   report.transfer = stage.seconds();
 
-  present_ = std::move(next);
-  stayed_points_ = std::move(points);
-  stayed_triangles_ = std::move(triangles);
-  fields_ = std::move(fields);
+  stage = {};
+  Holding made = placed({std::move(next), std::move(fields), std::move(points), std::move(triangles)}, means, report);
+  report.balance = stage.seconds();
+
+  present_ = std::move(made.generation);
+  stayed_points_ = std::move(made.stayed_points);
+  stayed_triangles_ = std::move(made.stayed_triangles);
+  fields_ = std::move(made.fields);
+  spent_ = {};
   report.seconds = all.seconds();
   report_ = report;
 }
 
-void Session::attach(const std::string& name, std::vector<double> values, FieldPlace place, Transfer how) {
-  fields_[name] = make_field(mesh(), name, std::move(values), place, how);
+/// On other ranks where that makes up for an imbalance.
+Holding Session::placed(Holding made, const Means& means, AdaptReport& report) const {
+  Ranks& ranks = means.ranks;
+  if (ranks.alone() || !means.place) return made;
+  const Loads loads = loads_of(present_, made.generation, made.fields, spent_, ranks);
+  const std::vector<Rank> own = means.place(loads, made.generation);
+  const IdVector<SubdomainId, Rank> now = made.generation.holders;
+  const IdVector<SubdomainId, Rank> holders = of_all_parts(ranks, made.generation, [&](SubdomainId s) {
+    const auto i = std::ranges::lower_bound(made.generation.here, s) - made.generation.here.begin();
+    return own.empty() ? now[s] : own.at(static_cast<std::size_t>(i));
+  });
+  for (const SubdomainId s : ids_of(holders)) report.moved += holders[s] != now[s] ? 1 : 0;
+  if (report.moved > 0)
+    made = moved(
+        std::move(made), holders, [&](Parts parts) { return assembled(std::move(parts), ranks); }, ranks);
+  report.imbalance = imbalance(loads, holders);
+  return made;
+}
+
+void Session::attach(const std::string& name, std::vector<double> values, FieldPlace place, Transfer how,
+                     const Means& means) {
+  require_same_call("attach, with field '" + name + "' " + words_of(place, how), means.ranks);
+  Field field;
+  means.ranks.agree([&] { field = make_field(present_.piece.mesh, name, std::move(values), place, how); });
+  field.components = same_components(name, field.components, means.ranks);
+  fields_[name] = std::move(field);
 }
 
 Field& Session::find_field(const std::string& name) {
@@ -104,8 +245,9 @@ Field& Session::find_field(const std::string& name) {
   return found->second;
 }
 
-void Session::detach(const std::string& name) {
-  (void)find_field(name);
+void Session::detach(const std::string& name, const Means& means) {
+  require_same_call("detach, with field '" + name + "'", means.ranks);
+  means.ranks.agree([&] { (void)find_field(name); });
   fields_.erase(name);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,55 +10,89 @@
 #include "adapt/fields.hpp"
 #include "adapt/fit_lengths.hpp"
 #include "adapt/generation.hpp"
+#include "adapt/loads.hpp"
+#include "adapt/move.hpp"
 #include "adapt/regenerate.hpp"
+#include "adapt/saved.hpp"
+#include "base/bytes.hpp"
+#include "distributed/ranks.hpp"
 #include "driftmesh/adaptive.hpp"
 #include "driftmesh/pslg.hpp"
 #include "runtime/run_plan.hpp"
 
 namespace driftmesh::adapt {
 
-/// The mesh that a session begins with.
+/// The mesh that a session begins with: plan and input are the same on all ranks, parts those of this one.
 struct Start {
   RunPlan plan;  ///< without a size field
   Pslg pslg;     ///< repaired
-  IdVector<SubdomainId, SubdomainMesh> parts;
-  LengthsOfParts lengths;  ///< by which they were made, at their vertices; empty: none were asked for
+  std::map<SubdomainId, SubdomainMesh> parts;
+  std::map<SubdomainId, Lengths> lengths;  ///< by which they were made, at their vertices; empty: none were asked for
 };
 
-/// A mesh that is refined and coarsened from one generation to the next, by threads of this process. See AdaptiveMesh.
+/// What a call of a session is made with.
+struct Means {
+  Ranks& ranks;
+  std::int32_t threads = 1;  ///< of this process
+  Placing place{};           ///< after a generation is made; empty: parts stay where they are
+};
+
+/// A mesh that is refined and coarsened from one generation to the next, on one or many ranks, the same bit for bit.
+/// See AdaptiveMesh. What takes Means is collective, and throws on all ranks what one of them throws.
 class Session {
  public:
-  /// `finish`: adds to each new mesh what only the caller knows.
-  Session(Start start, const AdaptiveOptions& options, std::function<void(Mesh&)> finish);
+  /// `finish`: adds to each new piece what only the caller knows.
+  Session(Start start, const AdaptiveOptions& options, std::function<void(Mesh&)> finish, const Means& means);
+  /// Goes on with a session that was saved, as the one that saved it would have.
+  Session(Saved saved, std::function<void(Mesh&)> finish, const Means& means);
 
   [[nodiscard]] const Generation& present() const { return present_; }
-  [[nodiscard]] const Mesh& mesh() const { return present_.piece.mesh; }
+  [[nodiscard]] const DistributedPiece& piece() const { return present_.piece; }
   [[nodiscard]] const Pslg& pslg() const { return pslg_; }
+  [[nodiscard]] const Decomposition& decomposition() const { return plan_.decomposition; }
   [[nodiscard]] const AdaptiveOptions& options() const { return options_; }
   [[nodiscard]] const AdaptReport& report() const { return report_; }
   [[nodiscard]] const std::vector<std::int32_t>& stayed_points() const { return stayed_points_; }
   [[nodiscard]] const std::vector<std::int32_t>& stayed_triangles() const { return stayed_triangles_; }
 
   /// Makes the next generation. If anything throws, everything stays as it is.
-  void adapt(std::span<const double> lengths, std::int32_t threads, const Hooks& hooks);
-  void adapt(const SizeField& size, std::int32_t threads, const Hooks& hooks);
+  void adapt(std::span<const double> lengths, const Means& means, const Hooks& hooks);
+  void adapt(const SizeField& size, const Means& means, const Hooks& hooks);
+  [[nodiscard]] std::vector<double> lengths_from_error(std::span<const double> indicators, double target, double order,
+                                                       const Means& means) const;
 
-  void attach(const std::string& name, std::vector<double> values, FieldPlace place, Transfer how);
-  void detach(const std::string& name);
+  void attach(const std::string& name, std::vector<double> values, FieldPlace place, Transfer how, const Means& means);
+  void detach(const std::string& name, const Means& means);
   [[nodiscard]] std::span<double> field(const std::string& name);
+  [[nodiscard]] const Fields& fields() const { return fields_; }
+
+  /// See adapt::save. `more`: what only the caller knows.
+  void save(const std::string& path, Bytes more, const Means& means);
+
+  /// Notes how long the caller has worked on the present mesh, by which parts are placed once the next one is made. Not
+  /// collective; numbers that do not suit are an Error then.
+  void spent(double seconds) { spent_ = {.on_rank = seconds}; }
+  void spent(std::span<const double> seconds) { spent_ = {.on_parts = std::vector(seconds.begin(), seconds.end())}; }
+
+  /// Throws Error, on all ranks, unless they all make this call of the same session at the same generation.
+  void require_same_call(const std::string& call, Ranks& ranks) const;
 
  private:
-  void advance(const std::function<Wanted()>& want, std::int32_t threads, const Hooks& hooks);
+  void advance(const std::function<Wanted()>& want, const Means& means, const Hooks& hooks);
+  [[nodiscard]] Generation assembled(Parts parts, Ranks& ranks) const;
+  [[nodiscard]] Holding placed(Holding made, const Means& means, AdaptReport& report) const;
   [[nodiscard]] Field& find_field(const std::string& name);
 
   RunPlan plan_;
   Pslg pslg_;
   AdaptiveOptions options_;
   std::function<void(Mesh&)> finish_;
+  std::int64_t number_ = 0;  // distinguishes the sessions of a process; that of rank 0
   Generation present_;
   AdaptReport report_;
   std::vector<std::int32_t> stayed_points_, stayed_triangles_;
   Fields fields_;
+  Spent spent_;  // on the present mesh
 };
 
 }  // namespace driftmesh::adapt

@@ -1,133 +1,105 @@
 #include "driftmesh/adaptive.hpp"
 
-#include <algorithm>
-#include <optional>
 #include <string>
 #include <utility>
 
-#include "adapt/error_lengths.hpp"
-#include "adapt/session.hpp"
+#include "api/adaptive_core.hpp"
 #include "api/call.hpp"
 #include "api/library_request.hpp"
-#include "driftmesh/error.hpp"
+#include "distributed/ranks.hpp"
 #include "job/here.hpp"
-#include "job/limits.hpp"
-#include "job/make.hpp"
 
 namespace driftmesh {
-namespace {
-
-/// The first generation, in subdomains that go on. Bounds that describe it alone are left behind.
-job::LiveMesh first_generation(Call& call) {
-  job::Here here(job::kSubdomains, call.threads());
-  job::RunRecord record;
-  job::LiveMesh live = job::make(call.asked(here.kind()), here, record, call.watch())->take_live();
-  live.plan.bounds.plain.area = call.request().bounds.area;
-  return live;
-}
-
-}  // namespace
 
 struct AdaptiveMesh::Impl {
-  Impl(const Pslg& input, const MeshOptions& mesh_options, const AdaptiveOptions& adaptive)
-      : options(mesh_options), watch(options) {
-    Call call(input, options);
-    threads = call.threads();
-    job::LiveMesh live = first_generation(call);
-    limits = live.limits;
-    session.emplace(
-        adapt::Start{std::move(live.plan), std::move(live.pslg), std::move(live.parts), std::move(live.lengths)},
-        adaptive, [rasters = std::move(live.rasters)](Mesh& mesh) {
-          set_point_data(rasters, mesh);
-          mesh.numbers.clear();  // only for points of a piece; this is the whole mesh
-          mesh.ranks.clear();
-        });
+  Impl(const Pslg& input, const MeshOptions& options, const AdaptiveOptions& adaptive)
+      : core(options, Call(input, options).threads()) {
+    Call call(input, core.options());
+    job::Here here(job::kSubdomains, core.threads());
+    core.begin(call, here, adaptive, alone, make_whole);
+  }
+  Impl(const std::string& path, const MeshOptions& options) : core(options, job::threads_of(request_of(options))) {
+    core.resume(path, {}, alone, make_whole);
   }
 
-  /// Calls work(hooks), which calls functions of the caller, unless one of them asks for that.
-  template <class Work>
-  void advance(const Work& work) {
-    if (busy) throw Error("adapt is called by a function that adapt calls; return from it first");
-    const adapt::Hooks hooks{
-        .progress = [this](std::int64_t triangles, double forecast) { watch.refining(triangles, forecast); },
-        .check = [this](std::int64_t triangles) { job::check_limits(limits, triangles); }};
-    busy = true;
-    try {
-      in_words_of_library([&] { work(hooks); });
-    } catch (...) {
-      busy = false;
-      throw;
-    }
-    busy = false;
+  static void make_whole(Mesh& mesh) {
+    mesh.numbers.clear();  // only for points of a piece
+    mesh.ranks.clear();
   }
 
-  MeshOptions options;
-  CallerWatch watch;
-  std::int32_t threads = 1;
-  job::Limits limits;
-  std::optional<adapt::Session> session;
-  bool busy = false;
+  OneRank alone;
+  AdaptiveCore core;
 };
 
 AdaptiveMesh::AdaptiveMesh(const Pslg& input, const MeshOptions& options, const AdaptiveOptions& adaptive) {
   in_words_of_library([&] { impl_ = std::make_unique<Impl>(input, options, adaptive); });
 }
+AdaptiveMesh::AdaptiveMesh(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 AdaptiveMesh::AdaptiveMesh(AdaptiveMesh&&) noexcept = default;
 AdaptiveMesh& AdaptiveMesh::operator=(AdaptiveMesh&&) noexcept = default;
 AdaptiveMesh::~AdaptiveMesh() = default;
 
+AdaptiveMesh AdaptiveMesh::load(const std::string& path, const MeshOptions& options) {
+  std::unique_ptr<Impl> impl;
+  in_words_of_library([&] { impl = std::make_unique<Impl>(path, options); });
+  return AdaptiveMesh(std::move(impl));
+}
+
+void AdaptiveMesh::save(const std::string& path) {
+  in_words_of_library([&] { impl_->core.save(path, impl_->alone); });
+}
+
 const Mesh& AdaptiveMesh::mesh() const {
-  return impl_->session->mesh();
+  return impl_->core.session().piece().mesh;
 }
 
 const AdaptiveOptions& AdaptiveMesh::options() const {
-  return impl_->session->options();
+  return impl_->core.session().options();
 }
 
 void AdaptiveMesh::adapt(std::span<const double> lengths) {
-  impl_->advance([&](const adapt::Hooks& hooks) { impl_->session->adapt(lengths, impl_->threads, hooks); });
+  in_words_of_library([&] { impl_->core.adapt(lengths, impl_->alone); });
 }
 
 void AdaptiveMesh::adapt(const std::function<double(const Point&)>& size) {
-  impl_->advance([&](const adapt::Hooks& hooks) {
-    const FunctionField function(size);
-    const job::Request request = request_of(impl_->options);
-    const SizeSource source = job::size_of(request.sizing, {}, &function, impl_->session->pslg());
-    impl_->session->adapt(*source.field, std::max(1, impl_->options.threads), hooks);  // it may not be made for more
-  });
+  in_words_of_library([&] { impl_->core.adapt(size, impl_->alone); });
 }
 
 std::vector<double> AdaptiveMesh::lengths_from_error(std::span<const double> indicators, double target,
                                                      double order) const {
-  return adapt::lengths_from_error(mesh(), indicators, target, order);
+  return impl_->core.session().lengths_from_error(indicators, target, order, impl_->core.means(impl_->alone));
 }
 
 void AdaptiveMesh::attach(const std::string& name, std::vector<double> values, FieldPlace place, Transfer how) {
-  impl_->session->attach(name, std::move(values), place, how);
+  impl_->core.session().attach(name, std::move(values), place, how, impl_->core.means(impl_->alone));
 }
 
 void AdaptiveMesh::detach(const std::string& name) {
-  impl_->session->detach(name);
+  impl_->core.session().detach(name, impl_->core.means(impl_->alone));
 }
 
 std::span<double> AdaptiveMesh::field(const std::string& name) {
-  return impl_->session->field(name);
+  return impl_->core.session().field(name);
 }
 
 std::span<const double> AdaptiveMesh::field(const std::string& name) const {
-  return impl_->session->field(name);
+  return impl_->core.session().field(name);
+}
+
+std::map<std::string, FieldPlace> AdaptiveMesh::fields() const {
+  return impl_->core.fields();
 }
 
 const std::vector<std::int32_t>& AdaptiveMesh::stayed_points() const {
-  return impl_->session->stayed_points();
+  return impl_->core.session().stayed_points();
 }
 
 const std::vector<std::int32_t>& AdaptiveMesh::stayed_triangles() const {
-  return impl_->session->stayed_triangles();
+  return impl_->core.session().stayed_triangles();
 }
 
 const AdaptReport& AdaptiveMesh::report() const {
-  return impl_->session->report();
+  return impl_->core.session().report();
 }
 
 }  // namespace driftmesh

@@ -41,6 +41,8 @@ Failure failure_of(const std::exception_ptr& error) {
     return {Failure::Kind::kKey, e.problem(), e.key(), e.next()};
   } catch (const std::exception& e) {
     return {Failure::Kind::kOther, text_of(e)};
+  } catch (...) {
+    return {Failure::Kind::kOther, "something was thrown that is no std::exception"};
   }
 }
 

@@ -8,7 +8,7 @@ namespace driftmesh {
 Failure failure_in(const std::function<void()>& work) {
   try {
     work();
-  } catch (const std::exception&) {
+  } catch (...) {
     return failure_of(std::current_exception());
   }
   return {};

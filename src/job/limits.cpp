@@ -119,11 +119,21 @@ bool memory_is_full(const Limits& limits, std::int64_t triangles) {
   return present_memory() + needed > limits.memory || needed + until_next_look > room_under_cap();
 }
 
+namespace {
+
+[[noreturn]] void stop_at(const Limits& limits, bool by_memory, std::int64_t triangles) {
+  throw Keyed<LimitError>(KeyText::of("{}. No mesh was written", stopped_message(limits, by_memory, triangles, true)));
+}
+
+}  // namespace
+
 void check_limits(const Limits& limits, std::int64_t triangles) {
-  const bool by_memory = memory_is_full(limits, triangles);
-  if (by_memory || triangles > limits.triangles)
-    throw Keyed<LimitError>(
-        KeyText::of("{}. No mesh was written", stopped_message(limits, by_memory, triangles, true)));
+  check_number(limits, triangles);
+  if (memory_is_full(limits, triangles)) stop_at(limits, true, triangles);
+}
+
+void check_number(const Limits& limits, std::int64_t triangles) {
+  if (triangles > limits.triangles) stop_at(limits, false, triangles);
 }
 
 double room_for(const Limits& limits, std::int64_t triangles) {

@@ -70,6 +70,9 @@ void reuse_memory(const Request::Limits& asked);
 /// Throws LimitError if a process that has made this many triangles, none of which is kept, has reached a limit.
 void check_limits(const Limits& limits, std::int64_t triangles);
 
+/// The same for all processes together, as to the number of triangles alone.
+void check_number(const Limits& limits, std::int64_t triangles);
+
 /// For how many more triangles a process that has made this many has memory, with a tenth of it left over: more than
 /// that it should not take from others.
 [[nodiscard]] double room_for(const Limits& limits, std::int64_t triangles);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,9 +33,9 @@ struct LiveMesh {
   Pslg pslg;     ///< repaired
   Rasters rasters;
   Limits limits;
-  IdVector<SubdomainId, SubdomainMesh> parts;
+  std::map<SubdomainId, SubdomainMesh> parts;
   /// The length that the size field asks for at each of their vertices; empty without one.
-  IdVector<SubdomainId, GrowingArray<double, VertexId>> lengths;
+  std::map<SubdomainId, GrowingArray<double, VertexId>> lengths;
 };
 
 /// A mesh as refinement left it at its place. With many ranks each has one, and all calls are collective, in the same

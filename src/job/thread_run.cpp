@@ -21,8 +21,12 @@
 
 namespace driftmesh::job {
 
-ThreadRun::ThreadRun(Order order, const Limits& limits, std::int32_t threads, Watch& watch)
-    : order_(std::move(order)), watch_(watch), limits_(limits), book_(order_.plan.decomposition) {
+ThreadRun::ThreadRun(Order order, const Limits& limits, std::int32_t threads, Watch& watch, Ranks* ranks)
+    : order_(std::move(order)), ranks_(ranks), watch_(watch), limits_(limits), book_(order_.plan.decomposition) {
+  if (ranks_ != nullptr) {
+    holders_ = order_.plan.owners;
+    deal_to_threads(order_.plan, threads, [this](SubdomainId s) { return holders_[s] == ranks_->rank(); });
+  }
   sizes_.assign(to_index(threads), order_.size.get());
   order_.plan.bounds.size = sizes_.front();
   order_.plan.bounds.step = order_.step.get();
@@ -46,13 +50,19 @@ void ThreadRun::release() {
 }
 
 void ThreadRun::refine() {
-  const double forecast = forecast_of(order_.plan);
+  double forecast = 0;
+  for (const SubdomainId s : ids_of(order_.plan.owners))
+    if (ranks_ == nullptr || holders_[s] == ranks_->rank())
+      forecast += order_.plan.decomposition.subdomains[s].predicted;
   RefinementInRounds::Watch watch{.progress = [=, this](std::int64_t made) { watch_.refining(made, forecast); },
                                   .check = [this](std::int64_t made) { check_limits(limits_, made); },
+                                  .check_all = [this](std::int64_t made) { check_number(limits_, made); },
                                   .stalled = [this](const std::string& why) { watch_.stalled(why); }};
   if (inspects_at_once(order_.plan))
     watch.finished = [this](const Subdomain& subdomain, const SizeField* size) { note(subdomain, size); };
-  refinement_.emplace(order_.plan, sizes_, std::move(watch));
+  std::optional<HeldOnRanks> others;
+  if (ranks_ != nullptr) others.emplace(HeldOnRanks{*ranks_, holders_});
+  refinement_.emplace(order_.plan, sizes_, std::move(watch), others);
   refinement_->run();
 }
 
@@ -142,15 +152,22 @@ DistributedPiece ThreadRun::take_piece(Watch& watch) {
 }
 
 LiveMesh ThreadRun::take_live() {
-  std::map<SubdomainId, Subdomain>& subdomains = refinement_->subdomains();
   LiveMesh live;
-  live.parts.resize(subdomains.size());
-  for (auto& [id, subdomain] : subdomains) live.parts[id] = subdomain.take_mesh();
-  live.lengths.resize(sizes_.front() == nullptr ? 0 : live.parts.size());
-  in_parts(live.lengths.size(), sizes_.size(), [&](std::size_t thread, std::size_t begin, std::size_t end) {
-    for (auto s = static_cast<SubdomainId>(begin); to_index(s) < end; s = SubdomainId{to_int(s) + 1})
-      for (const Point& p : live.parts[s].mesh.points) live.lengths[s].push_back(sizes_[thread]->edge_length(p));
-  });
+  std::vector<std::pair<const SubdomainMesh*, GrowingArray<double, VertexId>*>> sized;
+  for (auto& [id, subdomain] : refinement_->subdomains()) {
+    SubdomainMesh& part = live.parts[id] = subdomain.take_mesh();
+    if (sizes_.front() != nullptr) sized.emplace_back(&part, &live.lengths[id]);
+  }
+  const auto add_lengths = [&] {
+    in_parts(sized.size(), sizes_.size(), [&](std::size_t thread, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        for (const Point& p : sized[i].first->mesh.points) sized[i].second->push_back(sizes_[thread]->edge_length(p));
+    });
+  };
+  if (ranks_ != nullptr)
+    ranks_->agree(add_lengths);
+  else
+    add_lengths();
   release();
   live.plan = std::move(order_.plan);
   live.pslg = std::move(order_.pslg);

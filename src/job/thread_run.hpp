@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "distributed/ranks.hpp"
 #include "driftmesh/distributed_piece.hpp"
 #include "driftmesh/files.hpp"
 #include "job/facts_book.hpp"
@@ -18,12 +19,14 @@
 
 namespace driftmesh::job {
 
-/// The refinement of a mesh in subdomains by threads of this process, and its results, which do not depend on the
-/// number of threads.
+/// The refinement of a mesh in subdomains by threads of this process, or of several, and its results, which do not
+/// depend on the number of threads and processes.
 class ThreadRun final : public Refined {
  public:
-  /// `order`: made by this process; its plan maps the subdomains to `threads` ranks. `watch` outlives the object.
-  ThreadRun(Order order, const Limits& limits, std::int32_t threads, Watch& watch);
+  /// `order`: its plan maps the subdomains to `threads` ranks; or to `ranks`, if not null, which refine them together
+  /// and of which each has `threads` threads. With them, refine() and take_live() are collective, and only these give
+  /// anything. `watch` and `ranks` outlive the object.
+  ThreadRun(Order order, const Limits& limits, std::int32_t threads, Watch& watch, Ranks* ranks = nullptr);
   ~ThreadRun() override;
 
   /// Throws what the work on a subdomain or the watch throws, and LimitError at a limit.
@@ -47,6 +50,8 @@ class ThreadRun final : public Refined {
   void write_pieces(const std::string& path, const WriteOptions& options) const;
 
   Order order_;
+  Ranks* ranks_;
+  IdVector<SubdomainId, Rank> holders_;  // among these
   std::vector<const SizeField*> sizes_;  // that of the order for each thread
   Watch& watch_;
   Limits limits_;

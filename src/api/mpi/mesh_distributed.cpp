@@ -8,6 +8,7 @@
 #include "api/call.hpp"
 #include "api/library_request.hpp"
 #include "api/mpi/fail_together.hpp"
+#include "api/mpi/with_team.hpp"
 #include "balancer/policies/policy_factory.hpp"
 #include "base/key_error.hpp"
 #include "distributed/ghost_layer.hpp"
@@ -20,22 +21,7 @@
 #include "job/same_on_ranks.hpp"
 
 namespace driftmesh {
-namespace {
 
-/// What `work` returns; then closes `open`, a team or a channel of one, cleanly, even if the work fails on all ranks.
-template <class Open, class Work>
-auto then_close(Open& open, const Work& work) {
-  try {
-    auto result = work();
-    open.close();
-    return result;
-  } catch (const std::exception&) {
-    open.close();
-    throw;
-  }
-}
-
-/// Throws Error for a communicator without a group of ranks that could work together: its use would end the process.
 void require_usable(MPI_Comm communicator) {
   int began = 0, ended = 0, between_groups = 0;
   MPI_Initialized(&began);
@@ -52,36 +38,15 @@ void require_usable(MPI_Comm communicator) {
         "such as MPI_Intercomm_merge makes of it");
 }
 
-/// What `work` returns with the ranks of the communicator, unless one of them has `failed` before: then all throw that.
-/// Errors are in the words of the library.
-template <class Work>
-auto with_team(MPI_Comm communicator, const Work& work, const std::exception_ptr& failed = nullptr) {
-  return in_words_of_library([&] {
-    require_usable(communicator);
-    job::MpiTeam team(MPI_Comm_c2f(communicator), words_of_library);
-    return then_close(team, [&] {
-      job::agree_on_failure(team, failed);
-      return work(team);
-    });
-  });
-}
-
-template <class Work>
-auto with_channel(job::Team& team, const Work& work) {
-  const std::unique_ptr<job::Channel> channel = team.open();
-  return then_close(*channel, [&] {
-    ExchangeRunner ranks(channel->transport());
-    return work(ranks);
-  });
-}
-
-/// The options as this rank has them. Of a callable, only whether there is one.
+/// Of a callable, only whether there is one.
 std::vector<job::RankSetting> settings_of(const MeshOptions& options, const job::Request& request) {
   std::vector<job::RankSetting> settings = job::settings_of(request);
   settings.push_back({KeyText::key("sizing.size"), options.size ? "a function" : "none"});
   settings.push_back({KeyText::key("balance.own"), options.balance.own ? "a policy" : "none"});
   return settings;
 }
+
+namespace {
 
 DistributedPiece mesh_on(job::Team& team, Call& call, const MeshOptions& options) {
   job::require_same(team, settings_of(options, call.request()));

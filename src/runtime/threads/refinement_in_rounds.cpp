@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <map>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -12,6 +13,7 @@
 
 #include "protocol/threads/thread_network.hpp"
 #include "runtime/coupling.hpp"
+#include "runtime/plan_run.hpp"
 #include "runtime/rank_loop.hpp"
 #include "runtime/subdomain_loop.hpp"
 #include "runtime/threads/few_threads.hpp"
@@ -41,6 +43,8 @@ struct RefinementInRounds::Told {
   SubdomainId to{};
   SplitPoint<GlobalRootId> split;
   [[nodiscard]] auto key() const { return std::tuple(to, split.root, split.path); }
+  friend bool operator<(const Told& a, const Told& b) { return a.key() < b.key(); }
+  friend bool operator==(const Told& a, const Told& b) { return a.key() == b.key(); }
 };
 
 /// Tells nobody within a round, and notes in `told` what is to be told after it.
@@ -96,9 +100,8 @@ class RefinementInRounds::Round {
   [[nodiscard]] std::vector<Told> told() const {
     std::vector<Told> all;
     for (const OneRank& rank : ranks_) all.insert(all.end(), rank.told.begin(), rank.told.end());
-    std::sort(all.begin(), all.end(), [](const Told& a, const Told& b) { return a.key() < b.key(); });
-    const auto same = [](const Told& a, const Told& b) { return a.key() == b.key(); };
-    all.erase(std::unique(all.begin(), all.end(), same), all.end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
     return all;
   }
 
@@ -161,8 +164,22 @@ class RefinementInRounds::Round {
   std::int64_t shown_ = -1;  // triangles, as progress
 };
 
-RefinementInRounds::RefinementInRounds(const RunPlan& plan, std::span<const SizeField* const> sizes, Watch watch)
-    : plan_(plan), watch_(std::move(watch)), outcomes_(sizes.size()) {
+void deal_to_threads(RunPlan& plan, std::int32_t threads, const std::function<bool(SubdomainId)>& here) {
+  const auto work_in = [&](SubdomainId s) { return here && !here(s) ? 0 : plan.decomposition.subdomains[s].predicted; };
+  double all = 0, before = 0;
+  for (const SubdomainId s : ids_of(plan.owners)) all += work_in(s);
+  for (const SubdomainId s : ids_of(plan.owners)) {
+    const double share = before / std::max(all, 1.0) * threads;
+    plan.owners[s] = static_cast<Rank>(std::min(threads - 1, static_cast<std::int32_t>(share)));
+    before += work_in(s);
+  }
+  if (threads == 1) plan.policy.reset();
+  plan.layout = plan.policy ? layout_of(plan, threads) : nullptr;
+}
+
+RefinementInRounds::RefinementInRounds(const RunPlan& plan, std::span<const SizeField* const> sizes, Watch watch,
+                                       std::optional<HeldOnRanks> others)
+    : plan_(plan), watch_(std::move(watch)), others_(others), outcomes_(sizes.size()) {
   for (const SizeField* size : sizes) {
     SubdomainContext& context = contexts_.emplace_back(context_of(plan));
     context.bounds.size = size;
@@ -170,28 +187,86 @@ RefinementInRounds::RefinementInRounds(const RunPlan& plan, std::span<const Size
       context.finished = [this, size](const Subdomain& subdomain) { watch_.finished(subdomain, size); };
   }
   for (const SubdomainContext& context : contexts_) held_.push_back(Subdomains(context));
-  for (const SubdomainId s : ids_of(plan.owners)) held_[plan.owners[s]].make(s);
+  for (const SubdomainId s : ids_of(plan.owners))
+    if (is_here(s)) held_[plan.owners[s]].make(s);
 }
 
 RefinementInRounds::~RefinementInRounds() = default;
 
 void RefinementInRounds::run() {
   for (bool all_told = false; !all_told;) {
-    Round round(*this, present_plan());
-    ++rounds_;
-    round.run();
-    for (const Rank r : ids_of(outcomes_)) add(outcomes_[r], round.outcome(r));
-    all_told = !tell_neighbors(round.told());
+    std::vector<Told> told;
+    if (others_)
+      others_->ranks.agree([&] { told = refine_for_a_round(); });
+    else
+      told = refine_for_a_round();
+    all_told = !tell_neighbors(std::move(told));
   }
   for (Subdomains& held : held_) subdomains_.merge(held.take());
 }
 
-/// False if there was nothing to tell.
-bool RefinementInRounds::tell_neighbors(const std::vector<Told>& told) {
+std::vector<RefinementInRounds::Told> RefinementInRounds::refine_for_a_round() {
+  Round round(*this, present_plan());
+  ++rounds_;
+  round.run();
+  for (const Rank r : ids_of(outcomes_)) add(outcomes_[r], round.outcome(r));
+  return round.told();
+}
+
+/// False if nobody had anything to tell.
+bool RefinementInRounds::tell_neighbors(std::vector<Told> told) {
+  bool any = !told.empty();
+  if (others_ && !others_->ranks.alone()) {
+    std::int64_t triangles = 0, all_triangles = 0;
+    for (const RankOutcome& outcome : outcomes_) triangles += outcome.triangles;
+    ByteWriter own;
+    own.value(triangles);
+    own.value(static_cast<std::uint8_t>(any ? 1 : 0));
+    for (const Bytes& bytes : others_->ranks.bytes_of_all(own.take())) {
+      ByteReader reader(bytes);
+      all_triangles += reader.value<std::int64_t>();
+      any = reader.value<std::uint8_t>() != 0 || any;
+    }
+    others_->ranks.agree([&] {
+      if (watch_.check_all) watch_.check_all(all_triangles);
+    });
+    if (any) told = swap_with_ranks(std::move(told));
+  }
   for (const Told& t : told)
     for (Subdomains& held : held_)
       if (Work* const subdomain = held.find(t.to)) subdomain->tell(std::span(&t.split, 1));
-  return !told.empty();
+  return any;
+}
+
+/// What subdomains here are told by those of all ranks, in the same order as if all of them were here.
+std::vector<RefinementInRounds::Told> RefinementInRounds::swap_with_ranks(std::vector<Told> told) {
+  std::map<Rank, ByteWriter> to_others;
+  for (const Decomposition::Root& root : plan_.decomposition.roots) {
+    if (!root.is_interface() || is_here(root.left) == is_here(root.right)) continue;
+    to_others[others_->holders[is_here(root.left) ? root.right : root.left]];
+  }
+  std::vector<Told> own;
+  for (const Told& t : told) {
+    if (is_here(t.to)) {
+      own.push_back(t);
+      continue;
+    }
+    ByteWriter& writer = to_others.at(others_->holders[t.to]);
+    writer.value(t.to);
+    writer.value(t.split.root);
+    writer.value(t.split.path);
+  }
+  std::vector<Mail> mail;
+  for (auto& [rank, writer] : to_others) mail.push_back({rank, writer.take()});
+  for (const Mail& from : others_->ranks.swap(std::move(mail)))
+    for (ByteReader reader(from.bytes); !reader.at_end();) {
+      Told& t = own.emplace_back();
+      reader.value(t.to);
+      reader.value(t.split.root);
+      reader.value(t.split.path);
+    }
+  std::sort(own.begin(), own.end());
+  return own;
 }
 
 /// The plan from where the subdomains are now, with the work that is left.

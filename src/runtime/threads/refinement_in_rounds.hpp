@@ -4,10 +4,12 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "distributed/ranks.hpp"
 #include "driftmesh/size_field.hpp"
 #include "migration/subdomain.hpp"
 #include "migration/subdomains.hpp"
@@ -16,13 +18,24 @@
 
 namespace driftmesh {
 
-/// Refinement by threads of this process. Each thread is a rank with a loop of its own, and subdomains move between
-/// them as the plan's policy says.
+/// Processes that refine a mesh together, each its subdomains. Both outlive the work.
+struct HeldOnRanks {
+  Ranks& ranks;
+  const IdVector<SubdomainId, Rank>& holders;  ///< the rank of each subdomain
+};
+
+/// Gives the subdomains of a process, those that `here` names or else all, to its threads in blocks of about equal
+/// work. Which thread has which changes nothing but time.
+void deal_to_threads(RunPlan& plan, std::int32_t threads, const std::function<bool(SubdomainId)>& here = {});
+
+/// Refinement by threads of this process, or of several that refine a mesh together. Each thread is a rank with a loop
+/// of its own, and subdomains move between the threads of a process as the plan's policy says.
 ///
-/// The mesh depends on the subdomains alone, neither on the number of threads nor on who is faster: in a round each
-/// subdomain meets its bounds without knowing what its neighbors put on their common borders meanwhile; between rounds
-/// all learn it, in the order of roots and paths. After a round in which nobody put a point on a border, the mesh
-/// conforms. Presplit interfaces need one round; others need few, since the later ones only follow up on single points.
+/// The mesh depends on the subdomains alone, neither on the number of processes or threads nor on who is faster: in a
+/// round each subdomain meets its bounds without knowing what its neighbors put on their common borders meanwhile;
+/// between rounds all learn it, in the order of roots and paths. After a round in which nobody put a point on a border,
+/// the mesh conforms. Presplit interfaces need one round; others need few, since the later ones only follow up on
+/// single points.
 class RefinementInRounds {
  public:
   /// Each may be empty. An exception thrown by one of them ends the run.
@@ -31,6 +44,8 @@ class RefinementInRounds {
     std::function<void(std::int64_t triangles)> progress{};
     /// Called by each thread after a slice of work, at the same time as others.
     std::function<void(std::int64_t triangles)> check{};
+    /// Called after a round with the triangles of all processes, if there are several.
+    std::function<void(std::int64_t triangles)> check_all{};
     /// Called by a thread, which has that field of `sizes`, when a subdomain has nothing to do, for now.
     std::function<void(const Subdomain&, const SizeField*)> finished{};
     /// A thread waits for the others for very long.
@@ -38,18 +53,21 @@ class RefinementInRounds {
   };
 
   /// One thread for each of `sizes`: its own object of the same size field, or null, in place of the plan's. The plan
-  /// maps subdomains to as many ranks. `plan` and the fields must outlive the object.
-  RefinementInRounds(const RunPlan& plan, std::span<const SizeField* const> sizes, Watch watch);
+  /// maps subdomains to as many ranks. `plan` and the fields must outlive the object. `others`: those who refine the
+  /// other subdomains of the plan; with them, run() is collective.
+  RefinementInRounds(const RunPlan& plan, std::span<const SizeField* const> sizes, Watch watch,
+                     std::optional<HeldOnRanks> others = {});
   ~RefinementInRounds();
   RefinementInRounds(const RefinementInRounds&) = delete;
   RefinementInRounds& operator=(const RefinementInRounds&) = delete;
 
-  /// Refines until all bounds are met. Throws what the first thread to fail throws; then the mesh is incomplete.
+  /// Refines until all bounds are met. Throws what the first thread to fail throws, on all ranks; then the mesh is
+  /// incomplete.
   void run();
 
   // After run():
 
-  /// All subdomains.
+  /// All subdomains of this process.
   [[nodiscard]] const std::map<SubdomainId, Subdomain>& subdomains() const { return subdomains_; }
   /// The same, to be taken apart.
   [[nodiscard]] std::map<SubdomainId, Subdomain>& subdomains() { return subdomains_; }
@@ -62,10 +80,14 @@ class RefinementInRounds {
   class Round;
 
   [[nodiscard]] LoopPlan present_plan() const;
-  [[nodiscard]] bool tell_neighbors(const std::vector<Told>& told);
+  [[nodiscard]] std::vector<Told> refine_for_a_round();
+  [[nodiscard]] bool tell_neighbors(std::vector<Told> told);
+  [[nodiscard]] std::vector<Told> swap_with_ranks(std::vector<Told> told);
+  [[nodiscard]] bool is_here(SubdomainId s) const { return !others_ || others_->holders[s] == others_->ranks.rank(); }
 
   const RunPlan& plan_;
   Watch watch_;
+  std::optional<HeldOnRanks> others_;
   IdVector<Rank, SubdomainContext> contexts_;  // one for each of held_
   IdVector<Rank, Subdomains> held_;            // until all rounds are over
   std::map<SubdomainId, Subdomain> subdomains_;

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "adapt/fields.hpp"
+#include "adapt/generation.hpp"
+#include "distributed/ranks.hpp"
+#include "driftmesh/ids.hpp"
+
+namespace driftmesh::adapt {
+
+/// What a rank has of the present generation, apart from its parts' meshes.
+struct Holding {
+  Generation generation;
+  Fields fields;
+  std::vector<std::int32_t> stayed_points, stayed_triangles;
+};
+
+/// The same with other holders of subdomains, which are given on all ranks: what moves takes its fields along, and
+/// nothing of what arrives counts as having stayed. `assemble`: as adapt::assemble, with what the caller knows.
+/// Collective.
+[[nodiscard]] Holding moved(Holding present, const IdVector<SubdomainId, Rank>& holders,
+                            const std::function<Generation(Parts)>& assemble, Ranks& ranks);
+
+}  // namespace driftmesh::adapt

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "base/bytes.hpp"
+#include "distributed/exchange.hpp"
+#include "driftmesh/ids.hpp"
+
+namespace driftmesh {
+
+/// Those who work on a mesh together: this process by itself, or the ranks of a transport. All calls but rank() and
+/// ranks() are collective, in the same order on all ranks.
+class Ranks {
+ public:
+  virtual ~Ranks() = default;
+  Ranks(const Ranks&) = delete;
+  Ranks& operator=(const Ranks&) = delete;
+
+  [[nodiscard]] virtual Rank rank() const = 0;
+  [[nodiscard]] virtual std::int32_t ranks() const = 0;
+  [[nodiscard]] bool alone() const { return ranks() == 1; }
+
+  /// Performs a whole exchange.
+  virtual void run(Exchange& exchange) = 0;
+
+  /// The bytes of every rank, on every rank.
+  [[nodiscard]] std::vector<Bytes> bytes_of_all(const Bytes& own);
+  /// Sends mail, at most one to each rank, and returns that from `senders`, which are ascending.
+  [[nodiscard]] std::vector<Mail> deliver(std::vector<Mail> mail, std::vector<Rank> senders);
+  /// The same for ranks that send mail to each other: each gets some from those to which it sends some.
+  [[nodiscard]] std::vector<Mail> swap(std::vector<Mail> mail);
+
+  /// Each rank does its part, and if one of them fails, all throw the failure of the first one, with its number. One
+  /// that is alone throws what the work throws.
+  void agree(const std::function<void()>& work);
+  /// Does work that throws on all ranks alike by means of its own.
+  template <class Work>
+  void alike(const Work& work) {
+    try {
+      work();
+    } catch (...) {
+      failed_together_ = true;
+      throw;
+    }
+  }
+  /// Whether one of these has thrown: then all ranks know of the failure.
+  [[nodiscard]] bool have_failed_together() const { return failed_together_; }
+
+ protected:
+  Ranks() = default;
+
+ private:
+  bool failed_together_ = false;
+};
+
+/// This process by itself.
+class OneRank final : public Ranks {
+ public:
+  [[nodiscard]] Rank rank() const override { return Rank{0}; }
+  [[nodiscard]] std::int32_t ranks() const override { return 1; }
+  void run(Exchange& exchange) override;
+};
+
+/// The ranks of a transport, which nothing else uses meanwhile.
+class RanksOfTransport final : public Ranks {
+ public:
+  explicit RanksOfTransport(protocol::Transport& transport) : transport_(transport), runner_(transport) {}
+  [[nodiscard]] Rank rank() const override { return transport_.rank(); }
+  [[nodiscard]] std::int32_t ranks() const override { return transport_.ranks(); }
+  void run(Exchange& exchange) override { runner_.run(exchange); }
+
+ private:
+  protocol::Transport& transport_;
+  ExchangeRunner runner_;
+};
+
+}  // namespace driftmesh
