@@ -24,7 +24,7 @@ from ._polygons import from_polygons
 from ._progress import ProgressLine
 
 # What needs MPI is a module of its own, loaded when one of these is first asked for; a package that was built without MPI lacks it.
-_OF_RANKS = ["DistributedPiece", "GhostedPiece", "SimulatedRun", "add_ghost_layer", "mesh_distributed", "simulate", "write_distributed"]
+_OF_RANKS = ["DistributedAdaptiveMesh", "DistributedPiece", "GhostedPiece", "SimulatedRun", "add_ghost_layer", "mesh_distributed", "simulate", "write_distributed"]
 
 __all__ = ["AdaptiveMesh", "Cancelled", "CheckReport", "Decomposition", "Error", "FileError", "InputError", "InputWarning", "LimitError", "Load",
            "Mesh", "Progress", "ProgressLine", "Pslg", "SizeField", "SizeRule", "__version__", "check", "convert", "cut_domain", "from_polygons", "generate",

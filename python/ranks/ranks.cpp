@@ -9,5 +9,6 @@ PYBIND11_MODULE(_ranks, module) {
   pybind11::module_::import("driftmesh._native");  // has the classes of arguments and results
   driftmesh::python::translate_errors();
   driftmesh::python::add_distributed(module);
+  driftmesh::python::add_adaptive_on_ranks(module);
   driftmesh::python::add_simulated(module);
 }

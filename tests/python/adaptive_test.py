@@ -1,5 +1,7 @@
 """Meshes that follow a solution, with numpy."""
 
+import pathlib
+import tempfile
 import threading
 import unittest
 
@@ -92,6 +94,24 @@ class Adaptive(unittest.TestCase):
             driftmesh.AdaptiveMesh(PLATE, max_aera=1)
         with self.assertRaisesRegex(driftmesh.Error, "gradation"):
             driftmesh.AdaptiveMesh(PLATE, gradation=-1)
+
+    def test_saved_and_loaded(self):
+        plate = driftmesh.AdaptiveMesh(PLATE, max_area=0.01, threads=1)
+        plate.attach("u", np.sin(plate.mesh.points), transfer="conserve")
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "plate.h5"
+            plate.save(path)
+            again = driftmesh.AdaptiveMesh.load(path, threads=1)
+            with self.assertRaises(TypeError):
+                driftmesh.AdaptiveMesh.load(path, treads=1)
+            path.write_text("nothing")
+            with self.assertRaisesRegex(driftmesh.InputError, "plate.h5"):
+                driftmesh.AdaptiveMesh.load(path)
+        self.assertEqual(again.fields, ["u"])
+        for mesh in (plate, again):
+            mesh.adapt(0.02 + 0.1 * np.abs(mesh.mesh.points[:, 0]))
+        np.testing.assert_array_equal(plate.mesh.triangles, again.mesh.triangles)
+        np.testing.assert_array_equal(plate.field("u"), again.field("u"))
 
     def test_not_within_itself(self):
         plate = driftmesh.AdaptiveMesh(PLATE, max_area=0.01, size_resolution=100)

@@ -205,5 +205,64 @@ class Callables(unittest.TestCase):
             driftmesh.mesh_distributed(3, PIPE)
 
 
+class Adaptive(unittest.TestCase):
+    @staticmethod
+    def ring(mesh, radius):
+        x, y = mesh.points.T
+        return 2 + 0.3 * np.abs(np.hypot(x, y) - radius)
+
+    def make(self, **options):
+        flow = driftmesh.DistributedAdaptiveMesh(WORLD, PIPE if FIRST else None, **({"max_area": 50.0, "threads": 1} | options))
+        flow.attach("u", np.sin(flow.piece.mesh.points), transfer="conserve")
+        flow.attach("mass", np.ones((len(flow.piece.mesh.triangles), 3)), where="corners", transfer="conserve")
+        return flow
+
+    def check_as_alone(self, flow, alone):
+        numbers = flow.piece.mesh.numbers
+        np.testing.assert_array_equal(flow.piece.mesh.points, alone.mesh.points[numbers])
+        np.testing.assert_array_equal(flow.field("u"), alone.field("u")[numbers])
+        self.assertEqual(WORLD.allreduce(len(flow.piece.mesh.triangles)), len(alone.mesh.triangles))
+
+    def test_the_same_as_on_one_process(self):
+        alone = driftmesh.AdaptiveMesh(PIPE, max_area=50.0, threads=1)
+        alone.attach("u", np.sin(alone.mesh.points), transfer="conserve")
+        flow = self.make()
+        for radius in (5, 8):
+            alone.adapt(self.ring(alone.mesh, radius))
+            flow.spent(1.0 + WORLD.rank)
+            flow.adapt(self.ring(flow.piece.mesh, radius))
+            self.check_as_alone(flow, alone)
+        self.assertEqual(flow.report["generation"], 2)
+        self.assertEqual(flow.fields, ["mass", "u"])
+        with tempfile.TemporaryDirectory() as folder:
+            path = WORLD.bcast(pathlib.Path(folder) / "flow.h5")
+            flow.save(path)
+            again = driftmesh.DistributedAdaptiveMesh.load(WORLD, path)
+            here = driftmesh.AdaptiveMesh.load(path, threads=1)
+            WORLD.barrier()
+        self.check_as_alone(again, alone)
+        self.check_as_alone(again, here)
+        self.assertEqual(again.field("mass").shape[1], 3)
+        alone.adapt(lambda x, y: 1 + 0.2 * abs(x))
+        again.adapt(lambda x, y: 1 + 0.2 * abs(x))
+        self.check_as_alone(again, alone)
+
+    def test_errors(self):
+        flow = self.make()
+        last = WORLD.rank == WORLD.size - 1
+        count = len(flow.piece.mesh.points)
+        for wrong in ("lengths", [1.0], np.full(count, np.nan)):
+            with self.assertRaises((driftmesh.Error, TypeError, ValueError)):
+                flow.adapt(wrong if last else np.full(count, 5.0))
+        with self.assertRaises((driftmesh.Error, ValueError)):
+            flow.attach("v", np.ones(count + 1 if last else count))
+        with self.assertRaises((driftmesh.Error, ZeroDivisionError)):
+            flow.adapt(lambda x, y: 1 / 0 if last else 5.0)
+        with self.assertRaises((driftmesh.Error, TypeError)):
+            driftmesh.DistributedAdaptiveMesh(WORLD, 3 if last else PIPE)
+        flow.adapt(np.full(count, 5.0))
+        self.assertEqual(flow.report["generation"], 1)
+
+
 if __name__ == "__main__":
     unittest.main(verbosity=2 if FIRST else 0)
