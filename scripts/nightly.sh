@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The tests of threads under the thread sanitizer, the property tests with new seeds, the tests that scripts/test.sh does not run
+# The tests of threads under the thread sanitizer, the property tests with new seeds, whether the tests notice mutated sources, the tests that scripts/test.sh does not run
 # under the other sanitizers, 100,000 mutated files and 20,000 mutated meshes, read and checked under them by driftmesh-mutants, and
 # a million adversarial schedules of real meshing with driftmesh-sim, on all cores: prints the failing seeds, and totals. The exit
 # code is 0 if none fails.
@@ -8,6 +8,7 @@
 #                      [--properties N]                                   so many runs of the property tests (20; 0: none)
 #                      [--no-threads]                                     without the thread sanitizer
 #                      [--no-night]                                       without the tests with the label `night`
+#                      [--no-mutation]                                    without asking which mutated sources the tests miss
 #                      [--mutants-program PATH] [--program PATH]          without a build first
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
@@ -21,6 +22,7 @@ program=
 mutants_program=
 threads=yes
 night=yes
+mutation=yes
 properties=20
 while [[ $# -gt 0 ]]; do
   case "$1" in
@@ -36,6 +38,7 @@ while [[ $# -gt 0 ]]; do
       ;;
     --no-threads) threads=no ;;
     --no-night) night=no ;;
+    --no-mutation) mutation=no ;;
     --program)
       program=${2-}
       shift
@@ -45,7 +48,7 @@ while [[ $# -gt 0 ]]; do
       shift
       ;;
     -h | --help)
-      sed -n '2,11s/^# \{0,1\}//p' "$0"
+      sed -n '2,12s/^# \{0,1\}//p' "$0"
       exit 0
       ;;
     *)
@@ -72,6 +75,10 @@ if [[ $night == yes ]]; then
   cmake --preset asan-ubsan -DDRIFTMESH_SANITIZE_SCOPES=ON -Wno-dev && cmake --build --preset asan-ubsan -j "$jobs"
   say "Tests of the night, and the long ones, under the address and undefined-behavior sanitizers"
   ctest --preset asan-ubsan -L '^(night|long)$' --no-tests=error -j "$jobs" --timeout 600 || result=1
+fi
+if [[ $mutation == yes ]]; then
+  say "Mutated sources"
+  tests/mutation/mutation.py -j "$jobs" || result=1
 fi
 if [[ $mutants != 0..0 || $meshes != 0..0 ]]; then
   if [[ -z $mutants_program ]]; then

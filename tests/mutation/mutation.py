@@ -1,0 +1,294 @@
+#!/usr/bin/env python3
+"""Asks whether the tests notice faults: puts those of tests/mutation/faults into a copy of the sources, each behind a switch, builds the
+copy once, and runs for each fault the tests that pass its place, shortest first, until one fails.
+
+usage: mutation.py [--box NAME ...] [--changed BASE] [--line FILE:LINE ...] [-j N] [--update] ...
+
+The copy and its build are build/mutation. The exit code is 0 if the tests notice at least 98 % of the faults that somebody could
+notice (with --changed or --line: all), 1 if not, and 2 if something is wrong with the faults, the build or the tests themselves.
+"""
+
+import argparse
+import collections
+import concurrent.futures
+import json
+import os
+import pathlib
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import xml.etree.ElementTree
+
+import faults
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "scripts/tables"))
+
+import results  # noqa: E402
+from table import Table, percent  # noqa: E402
+
+COPY = ROOT / "build/mutation"
+BUILD = COPY / "build/ci"  # where it would lie beside the sources: a compiler cache then knows what no fault has changed
+PLACES = 1 << 16
+FOLDERS = ["unit", "property", "protocol", "regression", "sim", "mutants", "cli", "digests", "c", "mpi"]
+BYTES = 4 << 30
+
+
+def say(text):
+    print(text, flush=True)
+
+
+class Unit:
+    """What can be run alone: a test case of a doctest program, or a test of ctest as it is."""
+
+    def __init__(self, name, command, environment, folder, doctest):
+        self.name, self.command, self.environment, self.folder, self.doctest = name, command, environment, folder, doctest
+        self.seconds, self.places, self.fails = 0.0, frozenset(), False
+
+    def run(self, timeout, **environment):
+        """'passed', 'failed' or 'timeout'."""
+        with tempfile.TemporaryDirectory(prefix="driftmesh-mutation-", ignore_cleanup_errors=True) as scratch, tempfile.TemporaryFile() as output:
+            process = subprocess.Popen(self.command, cwd=self.folder, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
+                                       env={**os.environ, **self.environment, "TMPDIR": scratch, **environment}, start_new_session=True,
+                                       preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (BYTES, BYTES)))
+            try:
+                code = process.wait(timeout)
+            except subprocess.TimeoutExpired:
+                return "timeout"
+            finally:
+                try:
+                    os.killpg(process.pid, signal.SIGKILL)
+                except ProcessLookupError:
+                    pass
+                process.wait()
+            output.seek(0)
+            ran = not self.doctest or re.search(rb"test cases: +[1-9]", output.read()) is not None
+        return "passed" if code == 0 and ran else "failed"
+
+
+# ---- The copy ----
+
+def sources_of_tree():
+    names = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT, check=True, capture_output=True).stdout
+    return [name.decode() for name in names.split(b"\0") if name and (ROOT / name.decode()).is_file()]
+
+
+def make_copy(data):
+    by_file = collections.defaultdict(list)
+    for fault in data:
+        by_file[fault.file].append(fault)
+    names = sources_of_tree()
+    for name in names:
+        content = (ROOT / name).read_bytes()
+        if name in by_file:
+            content = faults.schemata(content.decode(), by_file[name]).encode()
+        place = COPY / name
+        if not place.is_file() or place.read_bytes() != content:
+            place.parent.mkdir(parents=True, exist_ok=True)
+            place.write_bytes(content)
+            shutil.copymode(ROOT / name, place)
+    kept = COPY / "copied.json"
+    for name in set(json.loads(kept.read_text()) if kept.is_file() else []) - set(names):
+        (COPY / name).unlink(missing_ok=True)
+    kept.write_text(json.dumps(names))
+
+
+def build(jobs):
+    run = lambda *command: subprocess.run(command, cwd=COPY, check=True, stdout=log, stderr=subprocess.STDOUT)  # noqa: E731
+    with (COPY / "build.log").open("w") as log:
+        run("cmake", "--preset", "ci", "-Wno-dev")
+        programs = {str(pathlib.Path(p).relative_to(BUILD)) for test in tests_of_ctest() for p in test["command"] if p.startswith(f"{BUILD}/")}
+        run("nice", "-n", "5", "ninja", "-k", "0", "-C", str(BUILD), "-j", str(jobs), *sorted(programs))
+
+
+# ---- The tests ----
+
+def tests_of_ctest():
+    shown = subprocess.run(["ctest", "--show-only=json-v1"], cwd=BUILD, check=True, capture_output=True, text=True).stdout
+    found = []
+    for test in json.loads(shown)["tests"]:
+        properties = {p["name"]: p["value"] for p in test["properties"]}
+        labels = properties.get("LABELS", [])
+        if "command" in test and "long" not in labels and set(labels) & set(FOLDERS):
+            found.append({"name": test["name"], "command": test["command"], "labels": labels, "folder": properties.get("WORKING_DIRECTORY", str(BUILD)),
+                          "environment": dict(e.split("=", 1) for e in properties.get("ENVIRONMENT", []))})
+    return found
+
+
+def cases_of(program, environment):
+    listed = subprocess.run([program, "--list-test-cases", "--reporters=xml"], check=True, capture_output=True, env={**os.environ, **environment}).stdout
+    return [(case.get("name"), case.get("filename")) for case in xml.etree.ElementTree.fromstring(listed).iter("TestCase")]
+
+
+def units():
+    found = {}
+    for test in tests_of_ctest():
+        command = test["command"]
+        if not os.access(command[0], os.X_OK):
+            continue
+        if len(command) <= 2 and command[0].endswith("_test") | command[0].endswith("_tests") and "polygon_sets" not in command[0]:
+            files = command[1].split("=", 1)[1].split(",") if len(command) == 2 else ["*"]
+            for case, file in cases_of(command[0], test["environment"]):
+                if not any(file.endswith(f.lstrip("*")) for f in files):
+                    continue
+                name = f"{pathlib.Path(file).stem}: {case}"
+                filters = [f"--test-case={case.replace(',', '?')}", f"--source-file=*{pathlib.Path(file).name}", "--abort-after=1"]
+                found[name] = Unit(name, [command[0], *filters], test["environment"], test["folder"], True)
+        else:
+            found[test["name"]] = Unit(test["name"], command, test["environment"], test["folder"], "--source-file" in " ".join(command))
+    return found
+
+
+def fingerprint(unit):
+    programs = [p for p in unit.command if p.startswith("/") and os.path.isfile(p)]
+    return [[os.path.getsize(p), os.path.getmtime(p)] for p in programs]
+
+
+def learn_places(all_units, jobs, longest):
+    """Runs each without faults, unless its programs are those of the last time: how long it takes, and what it passes."""
+    store = COPY / "passed.json"
+    known = json.loads(store.read_text()) if store.is_file() else {}
+    fresh = {}
+
+    def learn(unit):
+        seen = known.get(unit.name)
+        if seen is None or seen["programs"] != fingerprint(unit) or seen["longest"] != longest:
+            with tempfile.NamedTemporaryFile() as shared:
+                shared.write(bytes(PLACES))
+                shared.flush()
+                begin = time.monotonic()
+                outcome = unit.run(longest, DRIFTMESH_FAULTS_PASSED=shared.name)
+                shared.seek(0)
+                passed = [place for place, byte in enumerate(shared.read()) if byte]
+                seen = {"programs": fingerprint(unit), "longest": longest, "seconds": time.monotonic() - begin, "outcome": outcome, "places": passed}
+        fresh[unit.name] = seen
+        unit.seconds, unit.places, unit.fails = seen["seconds"], frozenset(seen["places"]), seen["outcome"] == "failed"
+        return seen["outcome"] == "passed"
+
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        usable = [unit for unit, good in zip(all_units.values(), pool.map(learn, all_units.values())) if good]
+    store.write_text(json.dumps(fresh))
+    return usable
+
+
+# ---- The verdicts ----
+
+class Verdict:
+    def __init__(self, fault, how, by="", tried=0, seconds=0.0):
+        self.fault, self.how, self.by, self.tried, self.seconds = fault, how, by, tried, seconds
+
+
+def try_fault(fault, usable, first, budget):
+    passing = sorted((u for u in usable if fault.number % PLACES in u.places), key=lambda u: (u.name != first, u.seconds))
+    begin, tried = time.monotonic(), 0
+    for unit in passing:
+        if time.monotonic() - begin > budget:
+            return Verdict(fault, "survived", f"{len(passing) - tried} tests not tried", tried, time.monotonic() - begin)
+        outcome = unit.run(10 + 10 * unit.seconds, DRIFTMESH_FAULT=str(fault.number))
+        tried += 1
+        if outcome != "passed":
+            return Verdict(fault, outcome, unit.name, tried, time.monotonic() - begin)
+    return Verdict(fault, "survived" if passing else "unreached", "", tried, time.monotonic() - begin)
+
+
+def harmless_words(verdicts):
+    """What changes nothing, and why."""
+    words = [f"- `{v.fault.file}`: {v.fault.meaning}: {v.fault.harmless}" for v in verdicts if v.fault.harmless]
+    return "\n".join(["Faults that change nothing that a test could see:", "", *words]) if words else ""
+
+
+def missed_words(verdicts):
+    words = [f"- `{v.fault.file}`: {v.fault.meaning}" for v in verdicts if v.how in ("survived", "unreached") and not v.fault.harmless]
+    return "\n".join(["Missed:", "", *words]) if words else ""
+
+
+def table(verdicts, seconds):
+    counts = collections.defaultdict(collections.Counter)
+    for v in verdicts:
+        for row in (v.fault.box, "all"):
+            counts[row]["harmless" if v.fault.harmless and v.how in ("survived", "unreached") else v.how] += 1
+    made = Table("mutation", "Faults that the tests notice", ["faults in", "faults", "noticed", "of these by time", "missed", "not reached", "change nothing", "share noticed"],
+                 "\n\n".join(filter(None, [f"{seconds / 60:.0f} minutes after the build.", missed_words(verdicts), harmless_words(verdicts)])))
+    for row in [*sorted(set(counts) - {"all"}), "all"]:
+        c = counts[row]
+        noticed, all_of_them = c["failed"] + c["timeout"], sum(c.values())
+        made.add(row, all_of_them, noticed, c["timeout"], c["survived"], c["unreached"], c["harmless"], percent(noticed / max(1, all_of_them - c["harmless"])))
+    return made
+
+
+def chosen(data, options):
+    if options.changed:
+        names = subprocess.run(["git", "diff", "--name-only", options.changed], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split()
+        data = [f for f in data if f.file in names]
+    if options.box:
+        data = [f for f in data if f.box in options.box]
+    if options.line:
+        data = [f for f in data if any(f.line == line or f.line.startswith(line + ":") for line in options.line)]
+    return data
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--box", action="append", help="only the faults of this file of faults/ (migration, protocol, ...); no others are built")
+    parser.add_argument("--changed", metavar="BASE", help="only faults in files that differ from this commit")
+    parser.add_argument("--line", action="append", metavar="FILE:LINE", help="only the fault that begins at this line of faults/, as messages name it")
+    parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count(), help="faults at a time (default: all cores)")
+    parser.add_argument("--longest", type=float, default=20, metavar="SECONDS", help="leave out tests that take longer (default: 20)")
+    parser.add_argument("--budget", type=float, default=120, metavar="SECONDS", help="give up on a fault after this time (default: 120)")
+    parser.add_argument("--no-build", action="store_true", help="use the copy as it was built, with these faults at least")
+    results.add_option(parser)
+    options = parser.parse_args()
+    try:
+        some = chosen(faults.read(), options)
+        if not some:
+            say("no faults to try")
+            return 0
+        if not options.no_build:
+            make_copy(some)
+            say(f"building {COPY.relative_to(ROOT)} with {len(some)} faults (build.log)")
+            build(options.jobs)
+    except faults.BadFault as problem:
+        say(f"mutation.py: {problem}")
+        return 2
+    except subprocess.CalledProcessError as problem:
+        say(f"mutation.py: {problem}; see {COPY / 'build.log'}")
+        return 2
+    all_units = units()
+    say(f"running {len(all_units)} tests without a fault, where they are not known yet")
+    usable = learn_places(all_units, options.jobs, options.longest)
+    broken = [u.name for u in all_units.values() if u.fails]
+    if broken:
+        say("these fail without a fault, and are left out: " + ", ".join(broken[:20]))
+    killers_file = COPY / "killers.json"
+    killers = json.loads(killers_file.read_text()) if killers_file.is_file() else {}
+    begin = time.monotonic()
+    verdicts = []
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        jobs = [pool.submit(try_fault, f, usable, killers.get(str(f.number)), options.budget) for f in some]
+        for job in concurrent.futures.as_completed(jobs):
+            v = job.result()
+            verdicts.append(v)
+            if v.how in ("failed", "timeout"):
+                killers[str(v.fault.number)] = v.by
+                if v.fault.harmless:
+                    say(f"{v.fault.line} is called harmless, but {v.by} notices it: {v.fault.meaning}")
+            elif not v.fault.harmless:
+                say(f"{v.how}: {v.fault.line} ({v.fault.file}), {v.tried} tests, {v.seconds:.0f} s: {v.fault.meaning} {v.by}")
+    killers_file.write_text(json.dumps(killers))
+    verdicts.sort(key=lambda v: (v.fault.box, v.fault.file, v.fault.line))
+    counted = [v for v in verdicts if not v.fault.harmless]
+    share = sum(v.how in ("failed", "timeout") for v in counted) / max(1, len(counted))
+    made = table(verdicts, time.monotonic() - begin)
+    say("\n" + made.markdown())
+    if options.update:
+        results.update("tests/mutation/mutation.py", [made], results.origin(BUILD / "driftmesh"))
+    return 0 if share >= (1 if options.changed or options.line else 0.98) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
