@@ -102,9 +102,16 @@ def span_of(fault, source):
     place = find(fault.right, start)
     if place is None:
         raise BadFault(f"{fault.line}: {fault.file} has no {fault.right!r}" + (f" behind {fault.anchors[-1]!r}" if fault.anchors else ""))
+    if is_statement(fault.right) and not may_begin_statement(source[:place[0]]):
+        raise BadFault(f"{fault.line}: {fault.right!r} ends as a statement does, but is not the whole of one")
     if not fault.anchors and find(fault.right, place[1]) is not None:
         raise BadFault(f"{fault.line}: {fault.file} has {fault.right!r} more than once; say behind what, by a line that begins with @")
     return place
+
+
+def may_begin_statement(before):
+    before = re.sub(r"//[^\n]*$", "", re.sub(r"(\s*//[^\n]*\n\s*)+$", "", before)).rstrip()
+    return not before or before.endswith((";", "{", "}", ")", ":", "else"))
 
 
 def is_statement(text):

@@ -6,10 +6,13 @@ usage: faults_test.py [unittest options]
 
 import pathlib
 import subprocess
+import sys
 import tempfile
 import unittest
 
-import faults
+sys.dont_write_bytecode = True
+
+import faults  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SOURCE = """
@@ -85,7 +88,7 @@ class Faults(unittest.TestCase):
 
     def test_mistakes_are_refused(self):
         for data, why in [("? no file\n- a\n+ b", "needs a file"), ("file f\n? nothing to put\n- a", r"begins with \+"), ("file f\nwords", "belongs to no fault"),
-                          ("file f\n? twice\n- a += 1;\n+", "more than once"), ("file f\n? gone\n- b += 1;\n+", "has no"),
+                          ("file f\n? twice\n- a += 1;\n+", "more than once"), ("file f\n? a part\n- 1;\n+ 2;", "not the whole"), ("file f\n? gone\n- b += 1;\n+", "has no"),
                           ("file f\n? overlap\n@ twice\n- a += 1; return\n+ a\n? other\n- return a * 2\n+ b", "overlaps")]:
             with self.assertRaisesRegex(faults.BadFault, why):
                 faults.schemata(SOURCE, faults.parse(data, "box"))

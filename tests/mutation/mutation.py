@@ -24,7 +24,9 @@ import tempfile
 import time
 import xml.etree.ElementTree
 
-import faults
+sys.dont_write_bytecode = True
+
+import faults  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "scripts/tables"))
@@ -37,6 +39,11 @@ BUILD = COPY / "build/ci"  # where it would lie beside the sources: a compiler c
 PLACES = 1 << 16
 FOLDERS = ["unit", "property", "protocol", "regression", "sim", "mutants", "cli", "digests", "c", "mpi"]
 BYTES = 4 << 30
+PAGE = """# Results: do the tests notice?
+
+By `tests/mutation/mutation.py --update`: faults of one line each are put into the sources one at a time, and the tests that pass the
+place run until one fails. [Mutated sources](../development.md#mutated-sources) says how.
+"""
 
 
 def say(text):
@@ -172,7 +179,7 @@ def learn_places(all_units, jobs, longest):
 
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         usable = [unit for unit, good in zip(all_units.values(), pool.map(learn, all_units.values())) if good]
-    store.write_text(json.dumps(fresh))
+    store.write_text(json.dumps(known | fresh))
     return usable
 
 
@@ -237,6 +244,7 @@ def main():
     parser.add_argument("--box", action="append", help="only the faults of this file of faults/ (migration, protocol, ...); no others are built")
     parser.add_argument("--changed", metavar="BASE", help="only faults in files that differ from this commit")
     parser.add_argument("--line", action="append", metavar="FILE:LINE", help="only the fault that begins at this line of faults/, as messages name it")
+    parser.add_argument("--tests", metavar="REGEX", default="", help="run only tests with such names, as in 'runtime_|subdomain_state' (default: all)")
     parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count(), help="faults at a time (default: all cores)")
     parser.add_argument("--longest", type=float, default=20, metavar="SECONDS", help="leave out tests that take longer (default: 20)")
     parser.add_argument("--budget", type=float, default=120, metavar="SECONDS", help="give up on a fault after this time (default: 120)")
@@ -258,7 +266,7 @@ def main():
     except subprocess.CalledProcessError as problem:
         say(f"mutation.py: {problem}; see {COPY / 'build.log'}")
         return 2
-    all_units = units()
+    all_units = {name: unit for name, unit in units().items() if re.search(options.tests, name)}
     say(f"running {len(all_units)} tests without a fault, where they are not known yet")
     usable = learn_places(all_units, options.jobs, options.longest)
     broken = [u.name for u in all_units.values() if u.fails]
@@ -286,6 +294,9 @@ def main():
     made = table(verdicts, time.monotonic() - begin)
     say("\n" + made.markdown())
     if options.update:
+        page = ROOT / results.FOLDER / "mutation.md"
+        if not page.exists():
+            page.write_text(PAGE)
         results.update("tests/mutation/mutation.py", [made], results.origin(BUILD / "driftmesh"))
     return 0 if share >= (1 if options.changed or options.line else 0.98) else 1
 

@@ -2,6 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <cstdint>
+#include <variant>
+#include <vector>
+
 #include "protocol/protocol_error.hpp"
 #include "support/id_literals.hpp"
 
@@ -94,6 +98,85 @@ TEST_CASE("a SPLIT follows its subdomain, the sender learns its owner, and count
   CHECK_THROWS_AS(ranks[2_rank].receive(1_rank, SplitBatch{{{1_sub, 1, 0_rank, 2, {{5_root, 1}}}}}),
                   ProtocolError);  // two hops in one move
   CHECK_THROWS_AS(ranks[2_rank].hand_off(1_sub, 2_rank, {}), Error);
+}
+
+TEST_CASE("each rank counts what it did, point by point and group by group") {
+  Ranks ranks;
+  for (const GlobalRootId root : first_ids<GlobalRootId>(3)) ranks[0_rank].send_split(1_sub, {root, 1});
+  ranks[0_rank].rest(false);
+  const Outgoing three = ranks.only(0_rank);
+  ranks[1_rank].hand_off(1_sub, 2_rank, Bytes(7));
+  const Outgoing first_move = ranks.only(1_rank);
+  ranks.carry(0_rank, three);
+  const auto forwarded = ranks[1_rank].take_outgoing();
+  REQUIRE(forwarded.size() == 2);
+  ranks.carry(1_rank, forwarded[0]);
+  ranks.carry(1_rank, forwarded[1]);  // held
+  ranks[0_rank].send_split(1_sub, {8_root, 1});
+  ranks[0_rank].rest(false);
+  const Outgoing direct = ranks.only(0_rank);
+  CHECK(direct.destination == 2_rank);
+  ranks.carry(0_rank, direct);  // held, too
+  CHECK(ranks[2_rank].held_groups() == 2);
+  CHECK(ranks[2_rank].counters().splits_handled == 0);
+  const Delivery arrived = ranks.carry(1_rank, first_move);
+  REQUIRE(arrived.splits.size() == 2);
+  CHECK(arrived.splits[0].points == std::vector<SplitPoint<GlobalRootId>>{{0_root, 1}, {1_root, 1}, {2_root, 1}});
+  CHECK(arrived.splits[1].points == std::vector<SplitPoint<GlobalRootId>>{{8_root, 1}});
+  ranks[2_rank].hand_off(2_sub, 0_rank, Bytes(11));
+  ranks[2_rank].hand_off(1_sub, 0_rank, Bytes(20));
+  for (const Outgoing& move : ranks[2_rank].take_outgoing()) ranks.carry(2_rank, move);
+
+  const auto counted = [&](Rank r) {
+    const ProtocolCounters& c = ranks[r].counters();
+    return std::vector<std::int64_t>{c.splits_sent, c.splits_handled, c.batches_sent, c.hand_offs, c.hand_off_bytes,
+                                     c.arrivals,    c.forwarded,      c.most_hops,    c.held};
+  };
+  CHECK(counted(0_rank) == std::vector<std::int64_t>{4, 0, 2, 0, 0, 2, 0, 0, 0});
+  CHECK(counted(1_rank) == std::vector<std::int64_t>{0, 0, 0, 1, 7, 0, 1, 0, 0});
+  CHECK(counted(2_rank) == std::vector<std::int64_t>{0, 4, 0, 2, 31, 1, 0, 1, 2});
+  std::int64_t sum = 0;
+  for (const auto& rank : ranks.all) sum += rank.termination().work_balance();
+  CHECK(sum == 0);
+}
+
+TEST_CASE("all others are told that a rank gives up the run, and nobody else") {
+  Ranks ranks;
+  ranks[1_rank].abandon();
+  std::vector<Rank> told;
+  for (const Outgoing& news : ranks[1_rank].take_outgoing()) {
+    told.push_back(news.destination);
+    CHECK(ranks.carry(1_rank, news).abandoned);
+  }
+  CHECK(told == std::vector<Rank>{0_rank, 2_rank});
+}
+
+TEST_CASE("who misled a SPLIT is told where its subdomain is, and only who does not know") {
+  Ranks ranks;
+  ranks[1_rank].hand_off(1_sub, 2_rank, Bytes(1));
+  const Outgoing move = ranks.only(1_rank);
+  ranks.carry(1_rank, move);
+  ranks[2_rank].hand_off(1_sub, 0_rank, Bytes(1));
+  Outgoing second;
+  for (const Outgoing& o : ranks[2_rank].take_outgoing())  // beside the answer to a probe
+    if (std::holds_alternative<HandOff>(o.message)) second = o;
+  const auto told_by = [&](Rank r) {
+    std::vector<Rank> told;
+    for (const Outgoing& o : ranks[r].take_outgoing())
+      if (std::holds_alternative<LocationUpdate>(o.message)) told.push_back(o.destination);
+    return told;
+  };
+  // Made by rank 1 when the subdomain was on rank 2: that tells rank 1, and not itself or rank 0, which has it.
+  ranks[2_rank].receive(1_rank, SplitBatch{{{1_sub, 1, 1_rank, 0, {{5_root, 1}}}}});
+  CHECK(told_by(2_rank) == std::vector<Rank>{1_rank});
+  // Made by rank 0 once, forwarded by rank 1: the new owner knows.
+  ranks[2_rank].receive(1_rank, SplitBatch{{{1_sub, 1, 0_rank, 1, {{6_root, 1}}}}});
+  CHECK(told_by(2_rank) == std::vector<Rank>{1_rank});
+  // Made here before it came and went.
+  ranks[2_rank].receive(1_rank, SplitBatch{{{1_sub, 1, 2_rank, 1, {{7_root, 1}}}}});
+  CHECK(told_by(2_rank) == std::vector<Rank>{1_rank});
+  ranks.carry(2_rank, second);
+  CHECK(ranks[0_rank].holds(1_sub));
 }
 
 TEST_CASE("advice is delivered while there is work, and rejected afterward") {

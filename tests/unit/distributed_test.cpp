@@ -1,9 +1,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
+#include <memory>
 #include <set>
 #include <vector>
 
@@ -150,6 +152,122 @@ TEST_CASE("a coordinate that differs in its last bit between subdomains of a ran
   PieceAssembly one(0_rank, 1, squares.d, squares.held({0_sub, 1_sub}));
   talk({&one});
   CHECK(mentions(error_text([&] { (void)one.piece(two_squares_input()); }), {"point 6", "subdomain 1"}));
+}
+
+TEST_CASE("attributes of input points stay what they are, whatever those around them are") {
+  TwoSquares squares;
+  for (SubdomainMesh& part : squares.parts) split(part, kSeparator, {1});
+  Pslg pslg = two_squares_input();
+  pslg.attributes_per_point = 2;
+  pslg.attributes = {1, 10, INFINITY, 20, 3, 30, 4, 40};
+  PieceAssembly one(0_rank, 2, squares.d, squares.held({0_sub})), other(1_rank, 2, squares.d, squares.held({1_sub}));
+  talk({&one, &other});
+  for (const PieceAssembly* const assembly : {&one, &other}) {
+    const DistributedPiece piece = assembly->piece(pslg);
+    REQUIRE(piece.mesh.attributes.size() == 2 * piece.mesh.points.size());
+    int input_points = 0;
+    for (std::size_t v = 0; v < piece.mesh.points.size(); ++v)
+      for (std::size_t k = 0; k < pslg.points.size(); ++k)
+        if (piece.mesh.points[v] == pslg.points[k]) {
+          CHECK(piece.mesh.attributes[2 * v] == pslg.attributes[2 * k]);
+          CHECK(piece.mesh.attributes[2 * v + 1] == pslg.attributes[2 * k + 1]);
+          ++input_points;
+        }
+    CHECK(input_points == 2);
+  }
+}
+
+namespace {
+
+/// Rounds of words: each rank tells some others its number and the round.
+class Words final : public Exchange {
+ public:
+  Words(Rank self, std::int32_t ranks, std::size_t length) : self_(self), ranks_(ranks), length_(length) {}
+  [[nodiscard]] int rounds() const override { return 3; }
+  [[nodiscard]] std::vector<Mail> send(int round) override {
+    std::vector<Mail> mail;
+    for (const Rank to : first_ids<Rank>(ranks_))
+      if (tells(self_, to, round)) mail.push_back({to, words(self_, round)});
+    return mail;
+  }
+  [[nodiscard]] std::vector<Rank> senders(int round) const override {
+    std::vector<Rank> from;
+    for (const Rank r : first_ids<Rank>(ranks_))
+      if (tells(r, self_, round)) from.push_back(r);
+    return from;
+  }
+  void receive(int round, std::vector<Mail> mail) override {
+    std::vector<Rank> from;
+    for (const Mail& m : mail) {
+      from.push_back(m.rank);
+      CHECK(m.bytes == words(m.rank, round));
+    }
+    CHECK(from == senders(round));
+    ++received;
+  }
+  int received = 0;
+
+ private:
+  static bool tells(Rank from, Rank to, int round) { return round == 1 ? to_int(to) == to_int(from) + 1 : from != to; }
+  [[nodiscard]] Bytes words(Rank from, int round) const {
+    return Bytes(round == 2 ? 0 : length_ + to_index(from), static_cast<std::byte>(16 * round + to_int(from)));
+  }
+  Rank self_;
+  std::int32_t ranks_;
+  std::size_t length_;
+};
+
+}  // namespace
+
+TEST_CASE("rounds end when all that is due has come, in parts or whole, in any order, again and again") {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    for (const std::size_t length : {0, 1, 7, 8, 9, 64}) {
+      CAPTURE(seed);
+      CAPTURE(length);
+      protocol::AdversarialNetwork network(3, protocol::Adversary::from_seed(seed));
+      IdVector<Rank, std::unique_ptr<ExchangeRunner>> runners;
+      IdVector<Rank, std::unique_ptr<Words>> words;
+      IdVector<Rank, protocol::RankStep> steps;
+      for (const Rank r : first_ids<Rank>(3)) {
+        runners.push_back(std::make_unique<ExchangeRunner>(network.transport(r), 8));
+        words.push_back(std::make_unique<Words>(r, 3, length));
+        steps.push_back([&, r, times = 0]() mutable {
+          const protocol::StepResult result = runners[r]->step(*words[r]);
+          if (result != protocol::StepResult::kFinished || ++times == 2) return result;
+          return protocol::StepResult::kBusy;
+        });
+      }
+      REQUIRE(network.run(steps).end == protocol::RunEnd::kFinished);
+      CHECK(network.in_flight() == 0);
+      for (const auto& w : words) CHECK(w->received == 6);
+    }
+}
+
+TEST_CASE("mail that comes late, twice, or from a rank that is not due is an error that names the sender") {
+  // Rank 1 of two says what it likes, in order; rank 0 goes through the rounds of Words.
+  const auto told_by_rank_1 = [](const std::vector<std::array<std::uint32_t, 3>>& messages) {
+    protocol::Adversary in_order = protocol::Adversary::from_seed(1);
+    in_order.fifo = true;
+    protocol::AdversarialNetwork network(2, in_order);
+    Words words(0_rank, 2, 3);
+    ExchangeRunner runner(network.transport(0_rank), 8);
+    return error_text([&] {
+      for (const auto& [serial, part, parts] : messages) {
+        ByteWriter writer;
+        for (const std::uint32_t word : {std::uint32_t{0x32584d44}, serial, part, parts}) writer.value(word);
+        writer.array(serial == 2 ? Bytes{} : Bytes(4, static_cast<std::byte>(16 * serial + 1)));
+        network.transport(1_rank).send(0_rank, writer.take());
+        for (int k = 0; k < 50; ++k) (void)runner.step(words);
+      }
+    });
+  };
+  // In round 1 nobody tells rank 0 anything: after round 0 it goes on to round 2 by itself.
+  CHECK(told_by_rank_1({{0, 0, 1}, {2, 0, 1}}) == "no error");
+  CHECK(mentions(told_by_rank_1({{0, 0, 1}, {0, 0, 1}}), {"rank 1", "after its round 0"}));
+  CHECK(mentions(told_by_rank_1({{1, 0, 1}, {0, 0, 1}}), {"rank 1", "no message was expected", "round 1"}));
+  CHECK(mentions(told_by_rank_1({{0, 0, 2}, {0, 0, 2}}), {"rank 1", "second of round 0"}));
+  CHECK(mentions(told_by_rank_1({{0, 0, 2}, {0, 1, 3}}), {"rank 1", "second of round 0"}));
+  CHECK(mentions(told_by_rank_1({{0, 2, 2}}), {"rank 1", "part 2 of 2"}));
 }
 
 TEST_CASE("messages that are not part of an exchange are errors that name the sender") {

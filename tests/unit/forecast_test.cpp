@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -149,6 +150,25 @@ TEST_CASE("bounds on area decide where they ask for more than the details do") {
     CHECK(forecast >= 0.95 * last);
     CHECK(forecast <= by_angle + 1.1 * BoundForecast(bay, bounds_with(20, area)).total());
     last = forecast;
+  }
+}
+
+TEST_CASE("the forecast of a large input, which leaves triangles out, is about the sum over all of them") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(0.001, 0.999);
+  Pslg pslg;
+  pslg.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  pslg.segments = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 0, 1}};
+  for (int k = 0; k < 18'000; ++k) pslg.points.push_back({place(random), place(random)});
+  const Triangulation mesh = prepared(pslg);
+  REQUIRE(mesh.live_triangles() > 32'000);
+  for (const double area : {0.0, 1e-5}) {
+    const Forecast forecast(mesh, bounds_with(20, area));
+    double sum = 0;
+    for (const TriangleId t : ids_of(mesh.triangles))
+      if (mesh.triangles[t].alive()) sum += forecast.in(t);
+    CHECK(sum > 1.2 * static_cast<double>(mesh.live_triangles()));
+    CHECK(forecast.total() == doctest::Approx(sum).epsilon(0.05));
   }
 }
 

@@ -194,3 +194,49 @@ TEST_CASE("a .vtu with 32-bit lengths, as other programs write, is read") {
                    data + "</AppendedData></VTKFile>");
   check_same_mesh(read_mesh(path), mesh);
 }
+
+TEST_CASE("integers of a .vtu that do not fit are refused, not wrapped, and so are points off the plane") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.vtu";
+  const auto written = [&](const std::string& corners, const std::string& markers, const std::string& points,
+                           const std::string& type = "Int64") {
+    replace_file(path,
+                 "<VTKFile type='UnstructuredGrid' version='1.0' byte_order='LittleEndian'><UnstructuredGrid>"
+                 "<Piece NumberOfPoints='3' NumberOfCells='1'><PointData><DataArray type='Int64' Name='marker' "
+                 "format='ascii'>" +
+                     markers +
+                     "</DataArray></PointData><Points><DataArray type='Float64' "
+                     "NumberOfComponents='3' format='ascii'>" +
+                     points +
+                     "</DataArray></Points><Cells>"
+                     "<DataArray type='" +
+                     type + "' Name='connectivity' format='ascii'>" + corners +
+                     "</DataArray>"
+                     "<DataArray type='Int64' Name='offsets' format='ascii'>3</DataArray>"
+                     "<DataArray type='UInt8' Name='types' format='ascii'>5</DataArray></Cells></Piece>"
+                     "</UnstructuredGrid></VTKFile>");
+  };
+  const std::string flat = "0 0 5 1 0 5 0 1 5";
+  written("0 1 2", "7 -8 2147483647", flat);
+  const Mesh mesh = read_mesh(path);
+  CHECK(mesh.point_markers == std::vector<std::int32_t>{7, -8, 2147483647});
+  CHECK(mesh.points[1] == Point{1, 0});
+  for (const char* const corners : {"0 1 4294967298", "0 1 -4294967294", "4294967296 1 2"}) {
+    written(corners, "1 1 1", flat);
+    CHECK(message_of(path).find("out of range") != std::string::npos);
+  }
+  for (const char* const markers : {"1 1 2147483648", "4294967296 0 0", "-2147483649 0 0"}) {
+    written("0 1 2", markers, flat);
+    CHECK(message_of(path).find("out of range") != std::string::npos);
+  }
+  written("0 1 18446744073709551615", "1 1 1", flat, "UInt64");
+  CHECK(message_of(path) != "");
+  for (const char* const points : {"0 0 5 1 0 5 0 1 4", "0 0 0 1 0 0 0 1 1e-9", "0 0 1 1 0 0 0 1 0"}) {
+    written("0 1 2", "1 1 1", points);
+    CHECK(message_of(path).find("not planar") != std::string::npos);
+  }
+  for (const char* const corners : {"0 1", "0 1 2 2", "0 1 2x"}) {
+    written(corners, "1 1 1", flat);
+    CHECK(message_of(path) != "");
+  }
+}

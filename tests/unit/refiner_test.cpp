@@ -11,6 +11,7 @@
 
 #include "driftmesh/error.hpp"
 #include "driftmesh/generate.hpp"
+#include "driftmesh/size_field.hpp"
 #include "geometry/predicates.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/cdt.hpp"
@@ -111,6 +112,56 @@ TEST_CASE("a state that refers to parts outside its mesh is rejected") {
   state = {};
   state.made = {{kNone, 1}};
   refused(state, "split point");
+}
+
+TEST_CASE(
+    "each vertex has the length that the field asks for there, in every stage, in any slot, however many there are") {
+  class Field final : public SizeField {
+   public:
+    explicit Field(double least) : least_(least) {}
+    [[nodiscard]] double edge_length(const Point& p) const override { return least_ * (1 + 2 * p.x + p.y); }
+
+   private:
+    double least_;
+  };
+  // Enough for the coarse stage and 100,000 vertices; and few, told of points that delete others.
+  for (const double least : {0.0015, 0.05}) {
+    const Field field(least);
+    Pslg pslg;
+    pslg.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    pslg.segments = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 0, 1}};
+    Triangulation mesh = triangulate(pslg);
+    prepare_corners(mesh);
+    QualityBounds bounds;
+    bounds.size = &field;
+    Refiner refiner(mesh, bounds);
+    std::vector<RefinerState::Stage> stages;
+    int deleted = 0;
+    for (int slice = 0; slice < 200; ++slice) {
+      const Refiner::Status status = refiner.refine(least < 0.01 ? 20'000 : 20);
+      stages.push_back(refiner.state().stage);
+      std::size_t wrong = 0;
+      for (const VertexId v : ids_of(mesh.points))
+        if (mesh.origin[v] != kDeleted) wrong += refiner.state().size[v] != field.edge_length(mesh.points[v]);
+      REQUIRE(wrong == 0);
+      deleted += !mesh.free_vertices.empty();
+      if (status != Refiner::Status::kDone) continue;
+      if (least < 0.01 || slice > 190) break;
+      refiner.add_split_point(RootId{slice % 4}, static_cast<dyadic::Path>(1 + slice * 37 % 255));
+    }
+    using Stage = RefinerState::Stage;
+    const auto saw = [&](Stage stage) { return std::ranges::find(stages, stage) != stages.end(); };
+    CHECK(saw(Stage::kDone));
+    if (least > 0.01) continue;
+    CHECK(mesh.live_vertices() > 120'000);
+    CHECK(saw(Stage::kFine));
+    // Few points make the coarse mesh: the first slice goes through it.
+    Triangulation coarse = triangulate(pslg);
+    prepare_corners(coarse);
+    Refiner begins(coarse, bounds);
+    begins.refine(20);
+    CHECK(begins.state().stage == Stage::kCoarse);
+  }
 }
 
 TEST_CASE("external split points are inserted with their ancestors at any time") {
