@@ -10,6 +10,7 @@
 #include "adapt/conserve.hpp"
 #include "adapt/interpolate.hpp"
 #include "adapt/lineage.hpp"
+#include "distributed/ranks.hpp"
 #include "driftmesh/error.hpp"
 #include "geometry/predicates.hpp"
 #include "geometry/triangle_geometry.hpp"
@@ -94,6 +95,8 @@ adapt::Generation generation_of(const Mesh& mesh, Triangulation triangulation) {
   generation.parts.push_back({std::move(whole)});
   IdVector<VertexId, std::int32_t> places(mesh.points.size());
   std::iota(places.begin(), places.end(), 0);
+  generation.here.push_back(SubdomainId{0});
+  generation.holders.push_back(Rank{0});
   generation.places.push_back(std::move(places));
   generation.first_triangle.push_back(0);
   generation.piece.mesh.points = mesh.points;
@@ -132,7 +135,8 @@ void carry(std::vector<adapt::Field>& fields, const Part& part, const NewPart& m
   if (fields.empty()) return;
   const adapt::Generation old_part = generation_of(part.mesh, std::move(before));
   const adapt::Generation next_part = generation_of(made.mesh, linked(made.mesh, triangle_neighbors(made.mesh)));
-  const adapt::Lineage lineage(old_part, next_part, 1);
+  OneRank alone;
+  const adapt::Lineage lineage(old_part, next_part, 1, alone);
   std::vector<std::vector<double>> old;
   for (const adapt::Field& field : fields)
     old.push_back(
