@@ -1105,7 +1105,7 @@ class Experiments(RunsOfExperiments):
                 self.assertEqual(real["mesh"], simulated["mesh"], f"{run} on {ranks}")
                 self.assertEqual(sum(r["triangles"] for r in real["parts"]["ranks"]), real["mesh"]["triangles"])
             self.assertEqual(sum(r["splits_sent"] for r in real["parts"]["ranks"]) > 0, ranks > 1)
-        for settings, says in ((["sizing.size=0.1", "bounds.triangles=0"], "run.method"), (["run.threads=2"], "run.method"),
+        for settings, says in ((["sizing.size=0.1", "bounds.triangles=0"], "run.method"), (["run.threads=2"], "run.threads"),
                                (["decomposition.subdomains=8"], "run.method"), (["balance.policy=greedy"], "balance.policy"),
                                (["limits.max-triangles=1000"], "limits.max-triangles")):
             with self.subTest(settings=settings):
