@@ -44,8 +44,9 @@ cli::Command commands_of_program() {
                    .name = "version",
                    .help = "Print the versions of the program, its compiler and its libraries",
                    .prints = version_text}},
-      .commands = {mesh_command(), adapt_command(), check_command(), convert_command(), decompose_command(), generate_command(),
-                   plot_command(), run_command(), replay_command(), calibrate_command(), triangle_command()},
+      .commands = {mesh_command(), adapt_command(), check_command(), convert_command(), decompose_command(),
+                   generate_command(), plot_command(), run_command(), replay_command(), calibrate_command(),
+                   triangle_command()},
       .notes =
           "For the options of a command, see: driftmesh COMMAND --help\n\n"
           "In place of any file name, - stands for standard input or output; an extension after it selects the "

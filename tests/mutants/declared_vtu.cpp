@@ -12,6 +12,7 @@
 #include "mutants/joined_pieces.hpp"
 #include "mutants/vtu_values.hpp"
 #include "mutants/xml_tree.hpp"
+#include "pslg/names.hpp"
 
 namespace driftmesh::mutants {
 namespace {
@@ -278,9 +279,30 @@ class VtuFile {
       mesh_.point_markers = integers<std::int32_t>(values("PointData", "marker", points));
     if (find("PointData", "global_number") != nullptr)
       mesh_.numbers = integers<std::int64_t>(values("PointData", "global_number", points));
-    if (find("PointData", "attribute") == nullptr) return;
+    if (find("PointData", "attribute") == nullptr) {
+      read_others_on_points(points);
+      return;
+    }
     mesh_.attributes = values("PointData", "attribute", points, std::nullopt).reals;
     mesh_.attributes_per_point = static_cast<std::int32_t>(components("PointData", "attribute"));
+  }
+
+  /// Arrays of other programs, ordered by name, each with a column for each of its components.
+  void read_others_on_points(std::uint64_t points) {
+    std::set<std::string> names;
+    for (const Element& part : piece_->children)
+      for (const Element& array : part.children)
+        if (part.name == "PointData" && array.name == "DataArray") names.insert(array.attribute("Name"));
+    for (const char* known : {"marker", "global_number", "vtkGhostType"}) names.erase(known);
+    std::vector<std::vector<double>> rows(points);
+    for (const std::string& name : names) {
+      if (!fault_of_name(name).empty()) continue;
+      const std::vector<double> reals = values("PointData", name, points, std::nullopt).reals;
+      const std::uint64_t width = components("PointData", name);
+      for (std::uint64_t i = 0; i < reals.size(); ++i) rows[i / width].push_back(reals[i]);
+    }
+    for (const std::vector<double>& row : rows) mesh_.attributes.insert(mesh_.attributes.end(), row.begin(), row.end());
+    mesh_.attributes_per_point = rows.empty() ? 0 : static_cast<std::int32_t>(rows[0].size());
   }
 
   void read_cells(std::uint64_t cells) {
