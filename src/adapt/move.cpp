@@ -46,7 +46,7 @@ void take_stayed(const Holding& present, const Generation& next, SubdomainId s, 
 
 }  // namespace
 
-Holding moved(Holding present, const IdVector<SubdomainId, Rank>& holders,
+Holding moved(const Holding& present, const IdVector<SubdomainId, Rank>& holders,
               const std::function<Generation(Parts)>& assemble, Ranks& ranks) {
   std::vector<Parcel> parcels = swap_parcels(present.generation, present.fields, holders, ranks);
   Parts parts = present.generation.parts;

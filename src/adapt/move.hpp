@@ -21,7 +21,7 @@ struct Holding {
 /// The same with other holders of subdomains, which are given on all ranks: what moves takes its fields along, and
 /// nothing of what arrives counts as having stayed. `assemble`: as adapt::assemble, with what the caller knows.
 /// Collective.
-[[nodiscard]] Holding moved(Holding present, const IdVector<SubdomainId, Rank>& holders,
+[[nodiscard]] Holding moved(const Holding& present, const IdVector<SubdomainId, Rank>& holders,
                             const std::function<Generation(Parts)>& assemble, Ranks& ranks);
 
 }  // namespace driftmesh::adapt

@@ -35,7 +35,8 @@ RefinerState state_of(const Part& part) {
 
 ValuesOnPart values_on(const Generation& generation, SubdomainId s, const Fields& fields) {
   ValuesOnPart all;
-  for (const auto& [name, field] : fields) {
+  for (const auto& named : fields) {
+    const Field& field = named.second;
     std::vector<double>& values = all.emplace_back();
     visit_stretches(generation, s, field, [&](std::size_t begin, std::size_t count) {
       const auto first = field.values.begin() + static_cast<std::ptrdiff_t>(begin);
@@ -48,7 +49,9 @@ ValuesOnPart values_on(const Generation& generation, SubdomainId s, const Fields
 void set_values_on(const Generation& generation, SubdomainId s, const ValuesOnPart& values, Fields& fields) {
   if (values.size() != fields.size()) throw Error("a part has other fields than the rank");
   auto of_field = values.begin();
-  for (auto& [name, field] : fields) {
+  for (auto& named : fields) {
+    const std::string& name = named.first;
+    Field& field = named.second;
     std::size_t next = 0;
     visit_stretches(generation, s, field, [&](std::size_t begin, std::size_t count) {
       if (count > of_field->size() - next) throw Error("field '" + name + "' lacks values on a part");

@@ -225,7 +225,7 @@ Holding Session::placed(Holding made, const Means& means, AdaptReport& report) c
   for (const SubdomainId s : ids_of(holders)) report.moved += holders[s] != now[s] ? 1 : 0;
   if (report.moved > 0)
     made = moved(
-        std::move(made), holders, [&](Parts parts) { return assembled(std::move(parts), ranks); }, ranks);
+        made, holders, [&](Parts parts) { return assembled(std::move(parts), ranks); }, ranks);
   report.imbalance = imbalance(loads, holders);
   return made;
 }

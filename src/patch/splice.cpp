@@ -56,8 +56,8 @@ class Maker {
     const std::int32_t same = known ? old_.triangle_of(old) : kNew;
     if (same >= 0)
       while (old[0] != part_.mesh.triangles[to_index(same)][0]) {
-        std::ranges::rotate(corners, corners.begin() + 1);
-        std::ranges::rotate(old, old.begin() + 1);
+        std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+        std::rotate(old.begin(), old.begin() + 1, old.end());
       }
     new_.mesh.triangles.push_back(corners);
     new_.old_triangle.push_back(same);
