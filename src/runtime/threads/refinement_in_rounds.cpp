@@ -230,7 +230,7 @@ bool RefinementInRounds::tell_neighbors(std::vector<Told> told) {
     others_->ranks.agree([&] {
       if (watch_.check_all) watch_.check_all(all_triangles);
     });
-    if (any) told = swap_with_ranks(std::move(told));
+    if (any) told = swap_with_ranks(told);
   }
   for (const Told& t : told)
     for (Subdomains& held : held_)
@@ -239,7 +239,7 @@ bool RefinementInRounds::tell_neighbors(std::vector<Told> told) {
 }
 
 /// What subdomains here are told by those of all ranks, in the same order as if all of them were here.
-std::vector<RefinementInRounds::Told> RefinementInRounds::swap_with_ranks(std::vector<Told> told) {
+std::vector<RefinementInRounds::Told> RefinementInRounds::swap_with_ranks(const std::vector<Told>& told) {
   std::map<Rank, ByteWriter> to_others;
   for (const Decomposition::Root& root : plan_.decomposition.roots) {
     if (!root.is_interface() || is_here(root.left) == is_here(root.right)) continue;

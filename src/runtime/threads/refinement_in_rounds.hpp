@@ -82,7 +82,7 @@ class RefinementInRounds {
   [[nodiscard]] LoopPlan present_plan() const;
   [[nodiscard]] std::vector<Told> refine_for_a_round();
   [[nodiscard]] bool tell_neighbors(std::vector<Told> told);
-  [[nodiscard]] std::vector<Told> swap_with_ranks(std::vector<Told> told);
+  [[nodiscard]] std::vector<Told> swap_with_ranks(const std::vector<Told>& told);
   [[nodiscard]] bool is_here(SubdomainId s) const { return !others_ || others_->holders[s] == others_->ranks.rank(); }
 
   const RunPlan& plan_;
