@@ -34,7 +34,7 @@ void save(const std::string& path, const SavedHead& head, const Generation& gene
 /// A session as a file has it.
 struct Saved {
   SavedHead head;
-  std::map<SubdomainId, Parcel> parcels;  ///< of this rank: about as many bytes as others have
+  std::map<SubdomainId, Parcel> parcels;  ///< those of this rank: about as many bytes as others have
 };
 
 /// Reads what save() wrote, on any number of ranks. Errors, on all of them: InputError, naming the version of a file

@@ -24,7 +24,7 @@
 namespace driftmesh {
 namespace {
 
-constexpr double kSpacing = 1.0 / 8;  // of samples, relative to the width
+constexpr double kSpacing = 1.0 / 8;  // between samples, relative to the width
 constexpr double kDetour = 2;         // a line that saves less of the way along the shore crosses no channel
 
 /// How far it is along the outline of a triangulation from one end of an edge to the other.

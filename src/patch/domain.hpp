@@ -12,7 +12,7 @@ namespace driftmesh::patch {
 /// What is to be triangulated anew.
 struct Domain {
   Pslg pslg;                        ///< without polygons, holes and regions
-  std::vector<SegmentSides> sides;  ///< of its segments
+  std::vector<SegmentSides> sides;  ///< one for each of its segments
   std::vector<bool> fixed;          ///< segments that nothing may split: beyond them everything stays
   std::vector<bool> free;           ///< points that refinement may delete
   std::vector<double> regions;      ///< the attribute of each region label

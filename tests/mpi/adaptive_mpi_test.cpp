@@ -14,6 +14,7 @@
 #include "driftmesh/files.hpp"
 #include "driftmesh/mpi/adaptive.hpp"
 #include "driftmesh/mpi/distributed.hpp"
+#include "mpi/on_all_ranks.hpp"
 #include "oracles/random_pslg.hpp"
 #include "support/piece_of_whole.hpp"
 #include "support/varied_domain.hpp"
@@ -23,43 +24,9 @@
 // Adaptive meshes on real ranks, against the same in one process.
 
 using namespace driftmesh;
+using namespace driftmesh::mpi_test;
 
 namespace {
-
-int own_rank() {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank;
-}
-
-int rank_count() {
-  int ranks = 0;
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  return ranks;
-}
-
-/// A path that rank 0 chooses.
-std::string shared_path(const TemporaryFolder& folder, const std::string& name) {
-  std::string path = (folder.path() / name).string();
-  path.resize(200);
-  MPI_Bcast(path.data(), 200, MPI_CHAR, 0, MPI_COMM_WORLD);
-  return path.c_str();
-}
-
-/// The message of the Error that a call throws on this rank, and on all others.
-std::string common_error(const std::function<void()>& call) {
-  std::string said = "nothing";
-  try {
-    call();
-  } catch (const Error& error) {
-    said = error.what();
-  }
-  std::string of_first = said;
-  of_first.resize(1000);
-  MPI_Bcast(of_first.data(), 1000, MPI_CHAR, 0, MPI_COMM_WORLD);
-  CHECK(said == of_first.c_str());
-  return said;
-}
 
 bool mentions(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;

@@ -28,42 +28,20 @@
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/digest.hpp"
+#include "mpi/on_all_ranks.hpp"
 #include "temporary_folder.hpp"
 #include "verify/verify.hpp"
 
 // The library's functions for solvers, on real ranks.
 
 using namespace driftmesh;
+using namespace driftmesh::mpi_test;
 
 namespace {
 
 std::uint64_t sum_over_ranks(std::uint64_t value) {
   MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
   return value;
-}
-
-/// A folder created by rank 0, known to all ranks.
-std::string shared_path(const TemporaryFolder& folder, const std::string& name) {
-  std::string path = (folder.path() / name).string();
-  path.resize(200);
-  MPI_Bcast(path.data(), 200, MPI_CHAR, 0, MPI_COMM_WORLD);
-  return path.c_str();
-}
-
-/// The message of the exception that the call throws, if it is the same on all ranks.
-template <class Call>
-std::string common_error(Call call) {
-  std::string said = "nothing";
-  try {
-    call();
-  } catch (const Error& error) {
-    said = error.what();
-  }
-  std::string of_first = said;
-  of_first.resize(1000);
-  MPI_Bcast(of_first.data(), 1000, MPI_CHAR, 0, MPI_COMM_WORLD);
-  CHECK(said == of_first.c_str());
-  return said;
 }
 
 class Constant final : public SizeField {
@@ -79,18 +57,6 @@ class Halving final : public SizeField {
  public:
   [[nodiscard]] double edge_length(const Point& p) const override { return p.x < 1 ? 0.1 : 0.05; }
 };
-
-int own_rank() {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank;
-}
-
-int rank_count() {
-  int ranks = 0;
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  return ranks;
-}
 
 }  // namespace
 

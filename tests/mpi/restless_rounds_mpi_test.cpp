@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "mpi/on_all_ranks.hpp"
 #include "property/cases.hpp"
 #include "support/random_subdomains.hpp"
 #include "support/restless_rounds.hpp"
@@ -15,21 +16,10 @@
 // same state, to the last bit, as where nothing happens to it.
 
 using namespace driftmesh;
+using namespace driftmesh::mpi_test;
 using namespace driftmesh::testing;
 
 namespace {
-
-int own_rank() {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank;
-}
-
-int rank_count() {
-  int ranks = 0;
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  return ranks;
-}
 
 std::int64_t sum_over_ranks(std::int64_t value) {
   MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);

@@ -15,6 +15,7 @@
 #include "mesh/cdt.hpp"
 #include "mesh/domain_outline.hpp"
 #include "property/cases.hpp"
+#include "support/outline_distance.hpp"
 #include "support/random_channels.hpp"
 
 // What is left of random domains without their narrow channels, judged by the geometry of both outlines alone.
@@ -26,19 +27,6 @@ namespace {
 
 using Segment = SegmentDistance::Ends;
 
-Point nearest_on(const Segment& s, const Point& p) {
-  const double ex = s.b.x - s.a.x, ey = s.b.y - s.a.y;
-  const double t = std::clamp(((p.x - s.a.x) * ex + (p.y - s.a.y) * ey) / (ex * ex + ey * ey), 0.0, 1.0);
-  return {s.a.x + t * ex, s.a.y + t * ey};
-}
-double gap(const Point& p, const Point& q) {
-  return std::hypot(p.x - q.x, p.y - q.y);
-}
-double to_outline(const OutlineSegments& outline, const Point& p) {
-  double least = HUGE_VAL;
-  for (const Segment& s : outline) least = std::min(least, gap(p, nearest_on(s, p)));
-  return least;
-}
 double area_of(const OutlineSegments& outline) {
   double twice = 0;
   for (const auto& [a, b] : outline) twice += a.x * b.y - a.y * b.x;

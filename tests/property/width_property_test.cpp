@@ -15,6 +15,7 @@
 #include "support/check_slopes.hpp"
 #include "support/error_text.hpp"
 #include "support/infinity.hpp"
+#include "support/outline_distance.hpp"
 #include "support/random.hpp"
 
 // Widths of random outlines against their definition: balls that grow from all over the outline until they touch it
@@ -68,19 +69,6 @@ OutlineSegments random_outline(Random& random) {
   return random() % 2 == 0 ? star(random, count, 0.3) : channel(random, 2 + count / 3);
 }
 
-Point nearest_on(const Segment& s, const Point& p) {
-  const double ex = s.b.x - s.a.x, ey = s.b.y - s.a.y;
-  const double t = std::clamp(((p.x - s.a.x) * ex + (p.y - s.a.y) * ey) / (ex * ex + ey * ey), 0.0, 1.0);
-  return {s.a.x + t * ex, s.a.y + t * ey};
-}
-double gap(const Point& p, const Point& q) {
-  return std::hypot(p.x - q.x, p.y - q.y);
-}
-double to_outline(const OutlineSegments& outline, const Point& p) {
-  double least = kInfinity;
-  for (const Segment& s : outline) least = std::min(least, gap(p, nearest_on(s, p)));
-  return least;
-}
 bool is_inside(const OutlineSegments& outline, const Point& p) {
   bool inside = false;
   for (const auto& [a, b] : outline)
