@@ -36,10 +36,31 @@ const heightFor = ([x, y], width) => Math.max(260, Math.min(680, 0.8 * window.in
 function prepared(mesh) {
   const { length, middle, half } = intoSquare(mesh.points);
   const sorted = sortTriangles(mesh.points, mesh.triangles);
-  const columns = Object.fromEntries(Object.entries(mesh.columns).map(([name, column]) =>
+  const { sizes, ...categories } = mesh.columns;
+  const columns = Object.fromEntries(Object.entries(categories).map(([name, column]) =>
     [name, categoriesOf(name, column, sorted.order)]));
   return { ...sorted, points: mesh.points, columns, ...measure(mesh.points, sorted.triangles), length, half,
-    middle: middle.map((x, d) => x + mesh.middle[d]) };
+    sizes: sizes && Float32Array.from(sorted.order, (t) => sizes[t]), middle: middle.map((x, d) => x + mesh.middle[d]) };
+}
+
+/** What triangles have values of, by name: {values, range, legend}, the values computed when they are first asked for. */
+function scalesOf(shown) {
+  const [least, greatest] = rangeOf(shown.areas);
+  const unitArea = shown.length ** 2;
+  const scale = (valuesOf, range, legend) => {
+    let values = null;
+    return { get values() { return (values ??= valuesOf()); }, range, legend };
+  };
+  const scales = {
+    area: scale(() => shown.areas.map(Math.log), [least, greatest].map(Math.log), [least * unitArea, greatest * unitArea, "area"]),
+    angle: scale(() => shown.angles, [0, 60], [0, 60, "smallest angle (degrees)"]),
+  };
+  if (!shown.sizes) return scales;
+  const range = rangeOf(shown.sizes);
+  scales.size = scale(() => shown.sizes.map(Math.log), range.map(Math.log), [...range, "length asked for"]);
+  scales["edge to size"] = scale(() => shown.edges.map((edge, t) => (edge * shown.length) / shown.sizes[t]), [0, 1.25],
+    [0, 1.25, "longest edge to the length asked for"]);
+  return scales;
 }
 
 /** Charts of the areas and smallest angles. */
@@ -68,8 +89,8 @@ export function meshSection(mesh, firstRecord) {
 
   const shown = prepared(mesh);
   const unitArea = shown.length ** 2;
-  const range = rangeOf(shown.areas);
-  place.append(distributions(shown, range));
+  const scales = scalesOf(shown);
+  place.append(distributions(shown, rangeOf(shown.areas)));
 
   const redraw = () => {
     if (waiting || !view) return;
@@ -85,7 +106,7 @@ export function meshSection(mesh, firstRecord) {
     shown.columns.subdomain.names.length <= record.cluster.owners_before.length;
   const offer = () => {
     const before = colorBy.value;
-    const names = ["area", "angle", ...Object.keys(shown.columns), ...(hasOwners() ? [kOverTime] : [])];
+    const names = [...Object.keys(scales), ...Object.keys(shown.columns), ...(hasOwners() ? [kOverTime] : [])];
     colorBy.replaceChildren(...names.map((name) => element("option", {}, name)));
     colorBy.value = names.includes(before) ? before : shown.columns.rank ? "rank" : "area";
     if (hasOwners()) replay.show(secondsOf(record));
@@ -94,19 +115,24 @@ export function meshSection(mesh, firstRecord) {
     if (!view) return;
     const by = colorBy.value;
     replay.place.style.display = by === kOverTime ? "" : "none";
-    if (by === "angle") key.replaceChildren(...scaleLegend(0, 60, "smallest angle (degrees)"));
-    else if (by === "area") key.replaceChildren(...scaleLegend(range[0] * unitArea, range[1] * unitArea, "area"));
-    else key.replaceChildren(...categoryLegend(by === kOverTime ? record.parts.ranks.map((_, rank) => rank) : shown.columns[by].names));
-    if (by === "angle" || by === "area") view.colorBy(by);
-    else if (by === kOverTime) view.colorBy("numbers", shown.columns.subdomain.numbers, ownersAt(record, replay.moment()));
-    else view.colorBy("numbers", shown.columns[by].numbers);
+    if (by in scales) {
+      key.replaceChildren(...scaleLegend(...scales[by].legend));
+      view.byValues(scales[by].values, scales[by].range);
+    } else if (by === kOverTime) {
+      key.replaceChildren(...categoryLegend(record.parts.ranks.map((_, rank) => rank)));
+      view.byCategories(shown.columns.subdomain.numbers, ownersAt(record, replay.moment()));
+    } else {
+      key.replaceChildren(...categoryLegend(shown.columns[by].names));
+      view.byCategories(shown.columns[by].numbers);
+    }
     redraw();
   };
   colorBy.addEventListener("change", paint);
 
   const describe = (t, [x, y]) => {
     const at = [x, y].map((c, d) => number(shown.middle[d] + c * shown.length, 7));
-    const columns = Object.entries(mesh.columns).map(([name, column]) => `, ${name} ${column[shown.order[t]]}`);
+    const columns = Object.keys(shown.columns).map((name) => `, ${name} ${mesh.columns[name][shown.order[t]]}`);
+    if (shown.sizes) columns.push(`, longest edge ${number(shown.edges[t] * shown.length)} where ${number(shown.sizes[t])} is asked for`);
     return `triangle ${number(shown.order[t])} at (${at.join(", ")}), area ${number(shown.areas[t] * unitArea)}, smallest angle `
       + `${number(shown.angles[t])} degrees${columns.join("")}`;
   };
@@ -120,7 +146,7 @@ export function meshSection(mesh, firstRecord) {
 
   const start = () => {
     try {
-      view = new MeshView(canvas, shown, range.map(Math.log));
+      view = new MeshView(canvas, shown);
     } catch (error) {
       said.textContent = `The mesh cannot be drawn: ${error.message}.`;
       return;

@@ -15,10 +15,10 @@ export function intoSquare(points) {
   return { length, middle, half: [(high[0] - low[0]) / 2 / length, (high[1] - low[1]) / 2 / length] };
 }
 
-/** Areas and smallest angles (degrees) of all triangles. */
+/** Areas, smallest angles (degrees) and longest edges of all triangles. */
 export function measure(points, triangles) {
   const count = triangles.length / 3;
-  const areas = new Float32Array(count), angles = new Float32Array(count);
+  const areas = new Float32Array(count), angles = new Float32Array(count), edges = new Float32Array(count);
   for (let t = 0; t < count; ++t) {
     const a = 2 * triangles[3 * t], b = 2 * triangles[3 * t + 1], c = 2 * triangles[3 * t + 2];
     const ux = points[b] - points[a], uy = points[b + 1] - points[a + 1];
@@ -30,8 +30,9 @@ export function measure(points, triangles) {
     const shortest = Math.min(uu, vv, ww);
     areas[t] = twice / 2;
     angles[t] = (Math.atan2(twice, (uu + vv + ww) / 2 - shortest) * 180) / Math.PI;
+    edges[t] = Math.sqrt(Math.max(uu, vv, ww));
   }
-  return { areas, angles };
+  return { areas, angles, edges };
 }
 
 /** The least and the greatest value above 0. */

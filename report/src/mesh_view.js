@@ -41,12 +41,11 @@ function upload(gl, unit, texture, array, per, [internal, format, type]) {
 const kNumbers = ["R32UI", "RED_INTEGER", "UNSIGNED_INT"];
 const kNone = new Uint32Array(1);
 
-/** Draws `mesh` ({points, triangles, starts, areas, angles, half}, sorted, in a square of side 2 around 0) on a canvas. */
+/** Draws `mesh` ({points, triangles, starts, areas, half}, sorted, in a square of side 2 around 0) on a canvas. */
 export class MeshView {
-  constructor(canvas, mesh, range) {
+  constructor(canvas, mesh) {
     this.canvas = canvas;
     this.mesh = mesh;
-    this.range = range;
     const gl = (this.gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true }));
     if (!gl) throw new Error("this browser has no WebGL 2");
     gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
@@ -64,15 +63,26 @@ export class MeshView {
     gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.RENDERBUFFER, target);
     this.transform = { k: 1, x: 0, y: 0 };
     this.marked = -1;
-    this.colorBy("angle");
+    this.byCategories(kNone);
   }
 
-  /** By "angle", "area", or numbers of the triangles, or what `lookup` has for these numbers. */
-  colorBy(what, numbers = kNone, lookup = kNone) {
-    if (what !== this.what || numbers !== this.shownNumbers) this.cells = {};
-    if (numbers !== this.shownNumbers) upload(this.gl, 2, this.numbers, numbers, 1, kNumbers);
+  /** Colors triangles by their values (Float32Array) on a scale between the ends of `range`. */
+  byValues(values, range) {
+    this.color(values, new Uint32Array(values.buffer, values.byteOffset, values.length), range, kNone);
+  }
+
+  /** Colors triangles by numbers from 0 (Uint32Array), or by what `lookup` has for these. */
+  byCategories(numbers, lookup = kNone) {
+    this.color(numbers, numbers, null, lookup);
+  }
+
+  color(shown, bits, range, lookup) {
+    if (shown !== this.shown) {
+      this.cells = {};
+      upload(this.gl, 2, this.numbers, bits, 1, kNumbers);
+    }
     upload(this.gl, 3, this.lookup, lookup, 1, kNumbers);
-    Object.assign(this, { what, shownNumbers: numbers, shownLookup: lookup.length > 1 ? lookup : null, imageLevel: null });
+    Object.assign(this, { shown, range, shownLookup: lookup.length > 1 ? lookup : null, imageLevel: null });
   }
 
   resize() {
@@ -98,17 +108,13 @@ export class MeshView {
 
   /** The color of a cell of an image, null where there is nothing. */
   colorOf(value) {
-    if (this.what === "angle") return Number.isNaN(value) ? null : onScale(value / 60);
-    if (this.what === "area") return Number.isNaN(value) ? null : onScale((value - this.range[0]) / Math.max(this.range[1] - this.range[0], 1e-6));
+    if (this.range) return Number.isNaN(value) ? null : onScale((value - this.range[0]) / Math.max(this.range[1] - this.range[0], 1e-6));
     return value < 0 ? null : ofCategory(this.shownLookup ? this.shownLookup[value] : value);
   }
 
   cellsOf(level) {
-    const { mesh } = this;
-    this.logarithms ??= this.what === "area" ? mesh.areas.map(Math.log) : null;
-    this.cells[level] ??= this.what === "angle" ? meansOf(mesh, level, mesh.angles, mesh.areas)
-      : this.what === "area" ? meansOf(mesh, level, this.logarithms, mesh.areas)
-      : numbersOf(mesh, level, this.shownNumbers, mesh.areas);
+    const { mesh, shown } = this;
+    this.cells[level] ??= this.range ? meansOf(mesh, level, shown, mesh.areas) : numbersOf(mesh, level, shown, mesh.areas);
     return this.cells[level];
   }
 
@@ -132,8 +138,8 @@ export class MeshView {
     const at = (name) => gl.getUniformLocation(this.program, name);
     ["points", "triangles", "numbers", "lookup"].forEach((name, unit) => gl.uniform1i(at(name), unit));
     gl.uniform4fv(at("view"), view);
-    gl.uniform1i(at("mode"), { angle: 0, area: 1 }[this.what] ?? 2);
-    gl.uniform2fv(at("range"), this.range);
+    gl.uniform1i(at("scaled"), this.range ? 1 : 0);
+    gl.uniform2fv(at("range"), this.range ?? [0, 1]);
     gl.uniform1i(at("pass"), pass);
     for (const [from, to] of ranges) gl.drawArrays(gl.TRIANGLES, 3 * from, 3 * (to - from));
   }

@@ -16,8 +16,8 @@ uniform usampler2D triangles;
 uniform usampler2D numbers; // of the triangles, by which they may be colored
 uniform usampler2D lookup;  // what stands for these numbers, if there is more than one
 uniform vec4 view;          // scale and offset to clip space
-uniform int mode;           // 0 angle, 1 area, 2 numbers as categories
-uniform vec2 range;         // of the logarithms of areas
+uniform bool scaled;        // numbers are the bits of values on a scale; otherwise they are categories
+uniform vec2 range;         // the ends of the scale
 uniform int pass;           // 0 colors, 1 numbers of triangles as colors, 2 one triangle that stands out
 flat out vec4 color;
 out vec3 corner;
@@ -35,11 +35,6 @@ vec3 ofCategory(uint n) {
   const vec3 all[${fills.length}] = vec3[](${fills.map(vec3).join(", ")});
   return all[n % ${fills.length}u] * (1.0 - 0.18 * float((n / ${fills.length}u) % ${kShades}u));
 }
-float angle(vec2 o, vec2 p, vec2 q) {
-  vec2 u = p - o, v = q - o;
-  return degrees(atan(abs(u.x * v.y - u.y * v.x), dot(u, v)));
-}
-
 void main() {
   int t = gl_VertexID / 3, k = gl_VertexID % 3;
   uvec4 v = texelFetch(triangles, at(t), 0);
@@ -52,11 +47,9 @@ void main() {
     color = vec4(float(n & 255u), float((n >> 8) & 255u), float((n >> 16) & 255u), float(n >> 24)) / 255.0;
   } else if (pass == 2) {
     color = vec4(${vec3([0.84, 0.37, 0])}, 1);
-  } else if (mode == 0) {
-    color = vec4(onScale(min(angle(a, b, c), min(angle(b, c, a), angle(c, a, b))) / 60.0), 1);
-  } else if (mode == 1) {
-    float area = 0.5 * abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
-    color = vec4(onScale((log(area) - range.x) / max(range.y - range.x, 1e-6)), 1);
+  } else if (scaled) {
+    float value = uintBitsToFloat(texelFetch(numbers, at(t), 0).x);
+    color = vec4(onScale((value - range.x) / max(range.y - range.x, 1e-6)), 1);
   } else {
     uint n = texelFetch(numbers, at(t), 0).x;
     color = vec4(ofCategory(textureSize(lookup, 0).y > 1 || textureSize(lookup, 0).x > 1 ? texelFetch(lookup, at(int(n)), 0).x : n), 1);

@@ -107,10 +107,11 @@ test("a gap between cells that have something is closed", () => {
   assert.equal(means.filter((m) => !Number.isNaN(m)).length, 4);
 });
 
-test("areas, smallest angles and histograms", () => {
+test("areas, smallest angles, longest edges and histograms", () => {
   const points = Float32Array.from([0, 0, 4, 0, 0, 3, 4, 3]);
-  const { areas, angles } = values.measure(points, Uint32Array.from([0, 1, 2, 1, 3, 2]));
+  const { areas, angles, edges } = values.measure(points, Uint32Array.from([0, 1, 2, 1, 3, 2]));
   assert.deepEqual([...areas], [6, 6]);
+  assert.deepEqual([...edges], [5, 5]);
   for (const angle of angles) assert.ok(Math.abs(angle - (Math.atan2(3, 4) * 180) / Math.PI) < 1e-4);
   assert.deepEqual(values.histogram([0, 1, 1.5, 4], [0, 4], 4, false).map((b) => b.count), [1, 2, 0, 1]);
   assert.deepEqual(values.histogram([1, 4, 10, 27], [1, 27], 3, true).map((b) => b.count), [1, 1, 2]);

@@ -27,8 +27,9 @@ function makeReport() {
   const words = Object.entries(set).flatMap(([key, value]) => ["--set", `${key}=${value}`]);
   driftmesh("run", "--quiet", fileOfSweep(), ...words, "-o", file("runs"));
   driftmesh("generate", "rectangle-hole", "-o", file("domain.poly"));
-  driftmesh("mesh", "--quiet", file("domain.poly"), "--size", kSize, "--subdomains", String(kSubdomains), "-o", file("mesh.vtu"));
-  driftmesh("report", file("runs"), "--mesh", file("mesh.vtu"), "-o", file("report.html"));
+  driftmesh("mesh", "--quiet", file("domain.poly"), "--size", kSize, "--subdomains", String(kSubdomains), "--save-size-tree", file("mesh.tree"),
+    "-o", file("mesh.vtu"));
+  driftmesh("report", file("runs"), "--mesh", file("mesh.vtu"), "--size-tree", file("mesh.tree"), "-o", file("report.html"));
 }
 
 function fileOfSweep() {
@@ -130,6 +131,8 @@ async function checkMesh(page) {
   await page.mouse.move(x + width / 8, y + (3 * height) / 4);
   await wait(page, () => /^triangle [\d,]+ at \(.*\), area/.test(document.getElementById("told").textContent));
   assert.match(await text(page, "#told"), /subdomain \d+/);
+  const [, edge, size] = /longest edge ([\d.]+) where ([\d.]+) is asked for/.exec(await text(page, "#told")).map(Number);
+  assert.ok(size === 0.01 && edge > 0.002 && edge <= 1.25 * size, `${edge} where ${size} is asked for, 0.01 by ${kSize}`);
   await page.mouse.move(x + 3, y + 3);
   await wait(page, () => document.getElementById("told").textContent === "");
   // Zoom by keyboard and by wheel, and back.
@@ -147,6 +150,24 @@ async function checkMesh(page) {
   assert.ok((await drawn()) > 0 && (await inked(page, "#mesh")) > 10000, "what is in sight is drawn, and no more");
   await page.keyboard.press("0");
   await wait(page, () => document.getElementById("mesh").dataset.zoom === "1.000");
+}
+
+/** Each scale and category has its colors and its legend; sizes are as they were asked for. */
+async function checkColors(page) {
+  const seen = new Set();
+  for (const [name, legend] of [["area", "area"], ["angle", "smallest angle"], ["size", /length asked for 0\.010*.*0\.050*$/], ["edge to size", "longest edge"],
+    ["subdomain", "0"], ["rank", "0"]]) {
+    if (!(await page.$$eval("#color-by option", (all, value) => all.some((o) => o.value === value), name))) {
+      assert.equal(name, "rank", `the page offers ${name}`);
+      continue;
+    }
+    await page.select("#color-by", name);
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    assert.match(await text(page, "#legend"), new RegExp(legend));
+    seen.add(await page.$eval("#mesh", (canvas) => canvas.toDataURL()));
+    if (name === "size" || name === "edge to size") await page.screenshot({ path: file(`${name.replaceAll(" ", "-")}.png`) });
+  }
+  assert.ok(seen.size >= 5, "no two look alike");
 }
 
 /** Other ranks have other colors at the end than at the beginning. */
@@ -176,6 +197,7 @@ try {
   await page.waitForSelector("body[data-ready=yes]", { timeout: 120000 });
   await checkRuns(page);
   await checkMesh(page);
+  await checkColors(page);
   await checkReplay(page);
   await page.screenshot({ path: file("report.png"), fullPage: true });
   await page.pdf({ path: file("report.pdf"), format: "A4", printBackground: true });

@@ -10,6 +10,7 @@
 #include "cli/values.hpp"
 #include "driftmesh/error.hpp"
 #include "io/mesh_file.hpp"
+#include "sizing/size_tree_file.hpp"
 #include "study/run_report.hpp"
 
 namespace driftmesh::app {
@@ -23,9 +24,29 @@ constexpr std::size_t kMostTriangles = 20'000'000;
 struct ReportCommand {
   std::vector<std::string> inputs;
   std::string mesh;
+  std::string size_tree;
   std::string output = "report.html";
   ReadOptions reading;
 };
+
+/// The lengths that the compiled field in this file asks for in the middle of the triangles.
+std::vector<float> sizes_in(const Mesh& mesh, const std::string& path) {
+  const std::unique_ptr<SizeTree> tree = read_size_tree(path);
+  std::vector<float> sizes;
+  sizes.reserve(mesh.triangles.size());
+  try {
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const Point &p = mesh.points[a], &q = mesh.points[b], &r = mesh.points[c];
+      sizes.push_back(static_cast<float>(tree->edge_length({(p.x + q.x + r.x) / 3, (p.y + q.y + r.y) / 3})));
+    }
+  } catch (const InputError&) {
+    throw;
+  } catch (const Error&) {
+    throw InputError({path}, "has no lengths for some triangles of the mesh",
+                     "name the file that --save-size-tree made with this mesh");
+  }
+  return sizes;
+}
 
 void run_report(const ReportCommand& command) {
   if (command.inputs.empty() && command.mesh.empty())
@@ -33,18 +54,21 @@ void run_report(const ReportCommand& command) {
   if (fs::path(command.output).extension() != ".html")
     throw InputError({command.output}, "is not a page", "use a name that ends in .html");
   FileRegistry files;
+  if (!command.size_tree.empty() && command.mesh.empty()) throw cli::UsageError("--size-tree needs a --mesh");
   const std::vector<fs::path> records = study::records_of(command.inputs);
   for (const fs::path& record : records) files.reads(record.string(), "RUN");
   if (!command.mesh.empty()) register_mesh_input(files, command.mesh, "--mesh", command.reading);
+  if (!command.size_tree.empty()) files.reads(command.size_tree, "--size-tree");
   register_output(files, command.output, "--output");
   ReportedMesh mesh;
   if (!command.mesh.empty())
-    mesh = {fs::path(command.mesh).filename().string(), read_mesh(command.mesh, command.reading)};
+    mesh = {fs::path(command.mesh).filename().string(), read_mesh(command.mesh, command.reading), {}};
   if (mesh.mesh.triangles.size() > kMostTriangles)
     throw InputError(
         {command.mesh, 0},
         fmt::format("has {} triangles, and a page shows at most {}", mesh.mesh.triangles.size(), kMostTriangles),
         "make a picture with `driftmesh plot`");
+  if (!command.size_tree.empty()) mesh.sizes = sizes_in(mesh.mesh, command.size_tree);
   study::write_report(command.output, records, mesh);
   fmt::print("{}: {} run{}{}\n", command.output, records.size(), records.size() == 1 ? "" : "s",
              mesh.mesh.triangles.empty() ? "" : fmt::format(", {} triangles", mesh.mesh.triangles.size()));
@@ -71,6 +95,13 @@ cli::Command report_command() {
             .help = "A mesh to look at: " + mesh_files_read(),
             .completes = cli::Option::Completes::kFile,
             .take = cli::into(command->mesh)},
+           {.name = "size-tree",
+            .value = "FILE",
+            .help =
+                "The lengths of edges that the mesh was asked for, by --save-size-tree of `driftmesh mesh`: the page "
+                "shows them, and edges in relation to them",
+            .completes = cli::Option::Completes::kFile,
+            .take = cli::into(command->size_tree)},
            {.name = "output",
             .letter = 'o',
             .value = "FILE",

@@ -77,6 +77,7 @@ void add_mesh(std::string& to, const ReportedMesh& reported) {
   if (!mesh.subdomains.empty()) add_array(to, "subdomain", "Int32", mesh.subdomains);
   if (!mesh.regions.empty())
     add_array(to, "region", "Float32", std::vector<float>(mesh.regions.begin(), mesh.regions.end()));
+  if (!reported.sizes.empty()) add_array(to, "sizes", "Float32", reported.sizes);
 }
 
 }  // namespace

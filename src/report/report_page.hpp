@@ -17,6 +17,7 @@ struct ReportedRun {
 struct ReportedMesh {
   std::string name;
   Mesh mesh;
+  std::vector<float> sizes;  ///< the length of edges asked for in the middle of each triangle; empty if it is not known
 };
 
 /// Whether this program was built with the page (it is put together by npm).

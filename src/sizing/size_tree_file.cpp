@@ -84,7 +84,7 @@ void write_size_tree(const SizeTree& tree, std::span<const CornerPoints> domain,
   file.commit();
 }
 
-std::unique_ptr<SizeTree> read_size_tree(const std::string& path, std::uint64_t digest) {
+std::unique_ptr<SizeTree> read_size_tree(const std::string& path, std::optional<std::uint64_t> digest) {
   const FileBytes file(path);
   const std::string_view text = file.view();
   if (!text.starts_with(kFirstLine))
@@ -102,7 +102,7 @@ std::unique_ptr<SizeTree> read_size_tree(const std::string& path, std::uint64_t 
     const std::span<const std::byte> bytes{begin + kHead, text.size() - kHead};
     if (bytes.size() != size || checksum(bytes) != sum)
       throw Keyed<InputError>({path}, "is damaged or incomplete", "make it anew with {sizing.save-tree}");
-    if (domain != digest)
+    if (digest && domain != *digest)
       throw Keyed<InputError>(
           {path}, "was compiled for another domain",
           "sizes are compiled for one domain, after its repair: make it anew with {sizing.save-tree}");

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -23,8 +24,9 @@ namespace driftmesh {
 void write_size_tree(const SizeTree& tree, std::span<const CornerPoints> domain, std::uint64_t digest,
                      const std::string& path);
 
-/// Reads such a file: the same lengths, to the last bit, in this domain. Throws InputError for another domain, another
-/// version or what is no such file, and FileError.
-[[nodiscard]] std::unique_ptr<SizeTree> read_size_tree(const std::string& path, std::uint64_t digest);
+/// Reads such a file: the same lengths, to the last bit, in its domain. `digest`: the domain that it has to be for; any
+/// if not given. Throws InputError for another domain, another version or what is no such file, and FileError.
+[[nodiscard]] std::unique_ptr<SizeTree> read_size_tree(const std::string& path,
+                                                       std::optional<std::uint64_t> digest = std::nullopt);
 
 }  // namespace driftmesh

@@ -66,6 +66,27 @@ class Report(Cli):
         arrays = blocks(self.page("--mesh", "region.vtu"), "mesh")
         self.assertEqual(set(struct.unpack(f"<{len(arrays['triangles']) // 12}f", arrays["region"])), {-2.5})
 
+    def test_lengths_asked_for_are_in_the_page(self):
+        self.succeed("mesh", "square.poly", "--size", "0.2+0.05*x", "--save-size-tree", "square.tree", "-o", "sized.vtu")
+        arrays = blocks(self.page("--mesh", "sized.vtu", "--size-tree", "square.tree"), "mesh")
+        points = struct.unpack(f"<{len(arrays['points']) // 4}f", arrays["points"])
+        corners = struct.unpack(f"<{len(arrays['triangles']) // 4}I", arrays["triangles"])
+        sizes = struct.unpack(f"<{len(arrays['sizes']) // 4}f", arrays["sizes"])
+        self.assertEqual(len(sizes), len(corners) // 3)
+        for t, size in enumerate(sizes):
+            x = 2 + sum(points[2 * c] for c in corners[3 * t:3 * t + 3]) / 3  # the middle of the square is at (2, 2)
+            self.assertLess(abs(size / (0.2 + 0.05 * x) - 1), 0.13, f"triangle {t} at x = {x}")
+        self.assertNotIn("sizes", blocks(self.page("--mesh", "sized.vtu"), "mesh"))
+
+    def test_lengths_of_something_else_are_refused(self):
+        self.write("far.poly", SQUARE.replace("1 0 0\n2 4 0\n3 4 4\n4 0 4\n", "1 90 90\n2 94 90\n3 94 94\n4 90 94\n"))
+        self.succeed("mesh", "far.poly", "--size", "0.01*x", "--save-size-tree", "far.tree", "-o", "far.vtu")
+        before = self.files()
+        self.refuse("report", "--mesh", "square.vtu", "--size-tree", "far.tree", says=["far.tree", "no lengths for some triangles"])
+        self.refuse("report", "--mesh", "square.vtu", "--size-tree", "square.poly", says=["square.poly", "no compiled size field"])
+        self.refuse("report", "square.json", "--size-tree", "far.tree", code=2, says=["--size-tree needs a --mesh"])
+        self.assertEqual(self.files(), before)
+
     def test_the_page_needs_nothing_else(self):
         page = self.page("square.json", "--mesh", "square.vtu")
         self.assertNotRegex(page, r"""<(script|link|img)[^>]*(src|href)\s*=\s*["']?\w""")
