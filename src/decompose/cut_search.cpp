@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
+constexpr std::size_t kManySides = 512;
 constexpr std::size_t kWord = 64;
 
 constexpr std::array<std::uint64_t, kWord> kBits = [] {
@@ -54,6 +55,10 @@ void for_each_joinable(const StationColumns& columns, std::size_t k, const Visit
     if (begin <= k) found &= ~std::uint64_t{0} << (k + 1 - begin);
     for (; found != 0; found &= found - 1) visit(begin + static_cast<std::size_t>(std::countr_zero(found)));
   }
+}
+
+std::size_t following(const Loop& loop, std::size_t k) {
+  return k + 1 < loop.size() ? k + 1 : 0;
 }
 
 }  // namespace
@@ -129,6 +134,15 @@ void CutSearch::collect_pairs() {
   if (any_reflex) candidates_.keep([this](std::size_t i, std::size_t j) { return allows(i, j); });
 }
 
+void CutSearch::set_sides() {
+  const Loop& loop = outline_->loop;
+  sides_ = {};
+  if (loop.size() <= kManySides) return;
+  std::vector<Box> boxes(loop.size());
+  for (std::size_t k = 0; k < loop.size(); ++k) boxes[k] = Box::around(loop[k].at, loop[following(loop, k)].at);
+  sides_ = BoxTree(boxes);
+}
+
 bool CutSearch::stays_inside(std::size_t i, std::size_t j) const {
   const auto& stations = outline_->stations;
   const auto &s = stations[i], &t = stations[j];
@@ -136,28 +150,39 @@ bool CutSearch::stays_inside(std::size_t i, std::size_t j) const {
   const double length = std::sqrt(squared_distance(a, b));
   const SeparatorRoom room(a, b, goal_.clearance * std::min(outline_->spacing, length));
   const double keep = room.height();
-  const Point low{std::min(a.x, b.x) - keep, std::min(a.y, b.y) - keep};
-  const Point high{std::max(a.x, b.x) + keep, std::max(a.y, b.y) + keep};
+  const Box around = Box::around(a, b, keep);
   const auto touches_end = [&](const Outline::Station& end, const Point& u, const Point& v, SideId side) {
     return u == end.at || v == end.at || (!end.corner && PlanarMap::wall_of(side) == PlanarMap::wall_of(end.side));
   };
   const Loop& loop = outline_->loop;
-  for (std::size_t k = 0; k < loop.size(); ++k) {
-    const Point &u = loop[k].at, &v = loop[k + 1 < loop.size() ? k + 1 : 0].at;
+  const auto is_blocked_by = [&](std::size_t k) {
+    const Point &u = loop[k].at, &v = loop[following(loop, k)].at;
     const SideId side = loop[k].side;
-    if (std::max(u.x, v.x) < low.x || std::min(u.x, v.x) > high.x || std::max(u.y, v.y) < low.y ||
-        std::min(u.y, v.y) > high.y)
-      continue;
-    if (!(u == a) && !(u == b) && room.contains(u)) return false;
-    if (touches_end(s, u, v, side) || touches_end(t, u, v, side)) continue;
-    if (room.is_entered_by(u, v)) return false;
+    if (!around.overlaps(Box::around(u, v))) return false;
+    if (!(u == a) && !(u == b) && room.contains(u)) return true;
+    if (touches_end(s, u, v, side) || touches_end(t, u, v, side)) return false;
+    if (room.is_entered_by(u, v)) return true;
     const double at_u = orient2d(a, b, u), at_v = orient2d(a, b, v);
-    if ((at_u > 0 && at_v > 0) || (at_u < 0 && at_v < 0)) continue;
+    if ((at_u > 0 && at_v > 0) || (at_u < 0 && at_v < 0)) return false;
     const double at_a = orient2d(u, v, a), at_b = orient2d(u, v, b);
-    if ((at_a > 0 && at_b > 0) || (at_a < 0 && at_b < 0)) continue;
-    return false;
+    return !((at_a > 0 && at_b > 0) || (at_a < 0 && at_b < 0));
+  };
+  if (loop.size() <= kManySides) {
+    for (std::size_t k = 0; k < loop.size(); ++k)
+      if (is_blocked_by(k)) return false;
+    return true;
   }
-  return true;
+  bool is_blocked = false;
+  const double reach = 1.01 * keep * length;  // with room for rounding
+  const auto near = [&](const Box& box) {
+    if (is_blocked || !around.overlaps(box)) return false;
+    const Point middle = box.center();
+    const double across = (b.x - a.x) * (middle.y - a.y) - (b.y - a.y) * (middle.x - a.x);
+    const double half = std::fabs(b.x - a.x) * (box.high.y - middle.y) + std::fabs(b.y - a.y) * (box.high.x - middle.x);
+    return std::fabs(across) <= half + reach;
+  };
+  sides_.search(near, [&](std::int32_t k) { is_blocked = is_blocked || is_blocked_by(static_cast<std::size_t>(k)); });
+  return !is_blocked;
 }
 
 Cut CutSearch::best_inside(double limit) {
@@ -186,6 +211,7 @@ Cut CutSearch::refine(Cut cut) {
 Cut CutSearch::find(const Outline& outline, const CutGoal& goal) {
   outline_ = &outline;
   goal_ = goal;
+  set_sides();
   select_stations();
   collect_pairs();
   const Cut cut = best_inside(kNoLimit);

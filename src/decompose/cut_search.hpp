@@ -7,6 +7,7 @@
 
 #include "decompose/cut_candidates.hpp"
 #include "decompose/outline.hpp"
+#include "geometry/box_tree.hpp"
 
 namespace driftmesh {
 
@@ -31,9 +32,11 @@ class CutSearch {
   [[nodiscard]] bool allows(std::size_t i, std::size_t j) const;
   [[nodiscard]] Cut best_inside(double limit);
   [[nodiscard]] Cut refine(Cut cut);
+  void set_sides();
   [[nodiscard]] bool stays_inside(std::size_t i, std::size_t j) const;
 
   const Outline* outline_ = nullptr;
+  BoxTree sides_;  // of the loop, if it has so many that not all should be looked at for each separator
   CutGoal goal_;
   std::size_t stride_ = 1;
   std::vector<std::uint32_t> selected_;

@@ -341,6 +341,20 @@ TEST_CASE("generated inputs: combs, fans and plates with many holes") {
   }
 }
 
+TEST_CASE("separators find their way among hundreds of segments that touch nothing") {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    CAPTURE(seed);
+    const Pslg pslg = generate_random_points({.points = 20000, .segments = 400, .seed = seed});
+    const Triangulation mesh = prepared(pslg);
+    for (const int n : {2, 30}) {
+      CAPTURE(n);
+      const Outcome outcome = decompose_and_check(pslg, mesh, n);
+      CHECK(outcome.problem == "");
+      CHECK(outcome.report.largest_load <= 1.7);
+    }
+  }
+}
+
 TEST_CASE("random domains, refined apart, conform after exchanging split points") {
   std::size_t exchanged = 0, triangles = 0;
   const auto cases = static_cast<std::uint64_t>(testing::case_count(60));
