@@ -41,7 +41,7 @@ const std::string kNotes =
     "  -o2 triangles of six points\n"
     "  -O  ignore holes\n"
     "  -B  no markers; -P: no .poly; -N: no .node; -E: no .ele\n"
-    "  -I  no number in file names; the .node or .poly of the input stays\n"
+    "  -I  no number in file names; the .node and .poly that were read stay\n"
     "  -C  check the mesh\n"
     "  -Q  print nothing; -V: print more\n"
     "  -i -F -l -X -z  change nothing here";

@@ -98,7 +98,8 @@ Tables TriangleFiles::read() {
   Tables tables;
   if (!switches_.refine && switches_.pslg) {
     Pslg pslg = read_poly(input(".poly"));
-    if (std::filesystem::exists(source_ + ".node")) files_.reads(source_ + ".node", "the input");
+    has_node_file_ = leaves_vertices_out(source_ + ".poly");
+    if (has_node_file_) files_.reads(source_ + ".node", "the input");
     first_number_ = pslg.first_number;
     take_segments(pslg, tables);
     take_points({.points = std::move(pslg.points),
@@ -122,7 +123,7 @@ Tables TriangleFiles::read() {
 }
 
 bool TriangleFiles::writes_points() const {
-  const bool is_input = switches_.no_iteration && !switches_.pslg;
+  const bool is_input = switches_.no_iteration && has_node_file_;
   return !switches_.no_points && !is_input;
 }
 

@@ -36,6 +36,7 @@ class TriangleFiles {
   const triangle::Switches& switches_;
   std::string source_, target_;  // without extension
   std::int32_t first_number_ = 1;
+  bool has_node_file_ = true;  // which the vertices were read from
   FileRegistry files_;
 };
 

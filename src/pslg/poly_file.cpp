@@ -135,6 +135,12 @@ Pslg read_poly(const std::string& path) {
   return parse_poly(path, text);
 }
 
+bool leaves_vertices_out(const std::string& path) {
+  const std::string text = read_file(path, kBeginsNumbers);
+  RecordScanner scanner(path, text);
+  return scan_nodes(scanner).points.empty();
+}
+
 std::vector<std::string> poly_files(const std::string& path) {
   std::vector<std::string> files{path};
   if (is_standard_stream(path)) return files;

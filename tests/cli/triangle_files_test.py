@@ -221,6 +221,18 @@ class Command(Cli):
         self.write("b.node", INPUTS["points"][0]["a.node"])
         self.succeed("triangle", "-I", "b")
         self.assertEqual((self.folder / "b.node").read_text(), INPUTS["points"][0]["a.node"])
+        # Vertices in the .node beside a .poly stay there; a .node that nothing was read from is written anew.
+        head, rest = program.SQUARE.split("4 1\n")
+        self.write("c.node", head)
+        self.write("c.poly", "0 2 0 0\n4 1\n" + rest)
+        self.succeed("triangle", "-pqa0.5I", "c.poly")
+        self.assertEqual((self.folder / "c.node").read_text(), head)
+        self.write("d.poly", program.SQUARE)
+        self.succeed("triangle", "-pI", "d.poly")
+        points = lambda: int((self.folder / "d.node").read_text().split()[0])  # noqa: E731
+        few = points()
+        self.succeed("triangle", "-pqa0.5I", "d.poly")
+        self.assertGreater(points(), few)
 
     def test_sizes(self):
         self.write("a.poly", INPUTS["hole"][0]["a.poly"])
