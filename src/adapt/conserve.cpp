@@ -21,25 +21,58 @@ double area_of(const Triangulation& mesh, TriangleId t) {
   return signed_area(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
 }
 
-/// p as a combination of the corners of a triangle, not only for points inside.
-Weights weights_in(const Triangulation& mesh, TriangleId t, const Point& p) {
-  const Point &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
-  const double all = rounded_cross(a, b, c);
-  const double at_b = rounded_cross(c, a, p) / all, at_c = rounded_cross(a, b, p) / all;
-  return {1 - at_b - at_c, at_b, at_c};
-}
-
-/// Calls sum(weight, p) so that the weighted values of a function add up to its integral over a convex polygon, exactly
-/// for products of two linear ones: at the midpoints of edges of the triangles that the polygon is divided into.
-template <class Sum>
-void integrate(const std::vector<Point>& polygon, const Sum& sum) {
-  for (std::size_t i = 2; i < polygon.size(); ++i) {
-    const Point &a = polygon[0], &b = polygon[i - 1], &c = polygon[i];
-    const double weight = signed_area(a, b, c) / 3;
-    for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
-      sum(weight, Point{(p.x + q.x) / 2, (p.y + q.y) / 2});
+/// Points as combinations of the corners of a triangle, not only those inside.
+class WeightsIn {
+ public:
+  WeightsIn(const Triangulation& mesh, TriangleId t)
+      : a_(mesh.corner(t, 0)), b_(mesh.corner(t, 1)), c_(mesh.corner(t, 2)), all_(rounded_cross(a_, b_, c_)) {}
+  [[nodiscard]] Weights at(const Point& p) const {
+    const double at_b = rounded_cross(c_, a_, p) / all_, at_c = rounded_cross(a_, b_, p) / all_;
+    return {1 - at_b - at_c, at_b, at_c};
   }
-}
+
+ private:
+  const Point &a_, &b_, &c_;
+  double all_;
+};
+
+/// What an overlap adds to integrals over the new triangle.
+class Share {
+ public:
+  Share(const Overlap& overlap, const Lineage::Change& change, double correction)
+      : size_(overlap.polygon.size()), in_old_(), in_new_(), areas_() {
+    const WeightsIn old_triangle(change.old_mesh, overlap.old_triangle);
+    const WeightsIn new_triangle(change.new_mesh, overlap.new_triangle);
+    const CommonPolygon& polygon = overlap.polygon;
+    for (std::size_t i = 0; i < size_; ++i) {
+      in_old_[i] = old_triangle.at(polygon[i]);
+      in_new_[i] = new_triangle.at(polygon[i]);
+      if (i >= 2) areas_[i] = correction * signed_area(polygon[0], polygon[i - 1], polygon[i]);
+    }
+  }
+
+  /// The integrals of the function that is linear in the old triangle, with these values at its corners, times that of
+  /// each corner of the new one: exact in each of the triangles around the first corner of the polygon.
+  [[nodiscard]] Weights moments(const std::array<double, 3>& at_old) const {
+    std::array<double, CommonPolygon::kMostCorners> value{};
+    for (std::size_t i = 0; i < size_; ++i)
+      value[i] = in_old_[i][0] * at_old[0] + in_old_[i][1] * at_old[1] + in_old_[i][2] * at_old[2];
+    Weights moments{};
+    for (std::size_t i = 2; i < size_; ++i) {
+      const double all = value[0] + value[i - 1] + value[i];
+      for (std::size_t k = 0; k < 3; ++k)
+        moments[k] += areas_[i] / 12 *
+                      ((all + value[0]) * in_new_[0][k] + (all + value[i - 1]) * in_new_[i - 1][k] +
+                       (all + value[i]) * in_new_[i][k]);
+    }
+    return moments;
+  }
+
+ private:
+  std::size_t size_;
+  std::array<Weights, CommonPolygon::kMostCorners> in_old_, in_new_;  // the corners of the polygon
+  std::array<double, CommonPolygon::kMostCorners> areas_;             // of the triangle that ends at each
+};
 
 /// What the new triangles of a subdomain overlap of those that are gone.
 struct Overlaps {
@@ -167,11 +200,8 @@ class AtCorners final : public OnItsWay {
         at[i] = old()[place(change.old_number[o.old_triangle], i, k)];
         range.add(at[i]);
       }
-      integrate(o.corners, [&](double weight, const Point& p) {
-        const Weights from = weights_in(change.old_mesh, o.old_triangle, p), to = weights_in(change.new_mesh, t, p);
-        const double value = from[0] * at[0] + from[1] * at[1] + from[2] * at[2];
-        for (int i = 0; i < 3; ++i) moments[i] += overlaps.correction[o.old_triangle] * weight * value * to[i];
-      });
+      const Weights more = Share(o, change, overlaps.correction[o.old_triangle]).moments(at);
+      for (int i = 0; i < 3; ++i) moments[i] += more[i];
     }
     const double all = moments[0] + moments[1] + moments[2], area = area_of(change.new_mesh, t);
     const double mean = all / area;
@@ -193,16 +223,16 @@ class AtCorners final : public OnItsWay {
 class AtPoints final : public OnItsWay {
  public:
   AtPoints(const Lineage& lineage, const ConservedField& field)
-      : OnItsWay(lineage, field), shares_(lineage.after().parts.size()) {}
+      : OnItsWay(lineage, field), sums_(lineage.after().parts.size()) {}
 
   void take(SubdomainId s, const Lineage::Change& change, const Overlaps& overlaps) override {
-    Share& share = shares_[s];
+    Sums& sums = sums_[s];
     const std::size_t vertices = change.new_mesh.points.size();
-    share.moments.assign(vertices * components(), 0);
-    share.mass.assign(vertices, 0);
-    share.changed.assign(vertices, false);
-    take_triangles(s, change, share);
-    take_overlaps(change, overlaps, share);
+    sums.moments.assign(vertices * components(), 0);
+    sums.mass.assign(vertices, 0);
+    sums.changed.assign(vertices, false);
+    take_triangles(s, change, sums);
+    take_overlaps(change, overlaps, sums);
   }
 
   [[nodiscard]] std::vector<double> values() override {
@@ -216,47 +246,42 @@ class AtPoints final : public OnItsWay {
 
  private:
   /// The part of a subdomain, at its vertices.
-  struct Share {
+  struct Sums {
     std::vector<double> moments;  ///< integrals of the field with the function of each point
     std::vector<double> mass;     ///< integrals of these functions
     std::vector<bool> changed;    ///< whether a triangle at the point does not stay
   };
 
   /// All masses, and moments with triangles that stay.
-  void take_triangles(SubdomainId s, const Lineage::Change& change, Share& share) const {
+  void take_triangles(SubdomainId s, const Lineage::Change& change, Sums& sums) const {
     for (const TriangleId t : ids_of(change.new_mesh.triangles)) {
       if (!change.new_mesh.triangles[t].alive()) continue;
       const double third = area_of(change.new_mesh, t) / 3;
       const bool stays = change.is_the_same || change.same[t] != kNone;
       for (const VertexId v : change.new_mesh.triangles[t].vertex) {
-        share.mass[to_index(v)] += third;
+        sums.mass[to_index(v)] += third;
         if (!stays) {
-          share.changed[to_index(v)] = true;
+          sums.changed[to_index(v)] = true;
           continue;
         }
         const std::int32_t from = lineage().old_point_of(s, v);
         for (std::size_t k = 0; k < components(); ++k)
-          share.moments[to_index(v) * components() + k] += third * old()[to_index(from) * components() + k];
+          sums.moments[to_index(v) * components() + k] += third * old()[to_index(from) * components() + k];
       }
     }
   }
 
-  void take_overlaps(const Lineage::Change& change, const Overlaps& overlaps, Share& share) const {
+  void take_overlaps(const Lineage::Change& change, const Overlaps& overlaps, Sums& sums) const {
     for (const Overlap& o : overlaps.list) {
       const auto& from = change.old_mesh.triangles[o.old_triangle].vertex;
       const auto& to = change.new_mesh.triangles[o.new_triangle].vertex;
-      integrate(o.corners, [&](double weight, const Point& p) {
-        const Weights in_old = weights_in(change.old_mesh, o.old_triangle, p),
-                      in_new = weights_in(change.new_mesh, o.new_triangle, p);
-        for (std::size_t k = 0; k < components(); ++k) {
-          double value = 0;
-          for (int i = 0; i < 3; ++i)
-            value += in_old[i] * old()[to_index(change.old_place[from[i]]) * components() + k];
-          for (int i = 0; i < 3; ++i)
-            share.moments[to_index(to[i]) * components() + k] +=
-                overlaps.correction[o.old_triangle] * weight * value * in_new[i];
-        }
-      });
+      const Share share(o, change, overlaps.correction[o.old_triangle]);
+      for (std::size_t k = 0; k < components(); ++k) {
+        std::array<double, 3> at{};
+        for (int i = 0; i < 3; ++i) at[i] = old()[to_index(change.old_place[from[i]]) * components() + k];
+        const Weights more = share.moments(at);
+        for (int i = 0; i < 3; ++i) sums.moments[to_index(to[i]) * components() + k] += more[i];
+      }
     }
   }
 
@@ -264,16 +289,16 @@ class AtPoints final : public OnItsWay {
   static constexpr std::size_t kChanged = 0, kMass = 1, kMoments = 2;
   [[nodiscard]] std::size_t width() const { return kMoments + components(); }
 
-  void add(SubdomainId s, SumsAtPoints& sums) const {
-    const Share& share = shares_[s];
+  void add(SubdomainId s, SumsAtPoints& all) const {
+    const Sums& sums = sums_[s];
     const IdVector<VertexId, std::int32_t>& places = lineage().after().places[s];
     std::vector<double> own(width());
     for (const VertexId v : ids_of(places)) {
       if (places[v] == kNone) continue;
-      own[kChanged] = share.changed[to_index(v)] ? 1 : 0;
-      own[kMass] = share.mass[to_index(v)];
-      std::copy_n(share.moments.begin() + to_index(v) * components(), components(), own.begin() + kMoments);
-      sums.add(s, places[v], own);
+      own[kChanged] = sums.changed[to_index(v)] ? 1 : 0;
+      own[kMass] = sums.mass[to_index(v)];
+      std::copy_n(sums.moments.begin() + to_index(v) * components(), components(), own.begin() + kMoments);
+      all.add(s, places[v], own);
     }
   }
 
@@ -341,7 +366,7 @@ class AtPoints final : public OnItsWay {
     }
   }
 
-  IdVector<SubdomainId, Share> shares_;
+  IdVector<SubdomainId, Sums> sums_;
 };
 
 std::unique_ptr<OnItsWay> on_its_way(const Lineage& lineage, const ConservedField& field) {

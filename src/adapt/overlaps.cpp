@@ -1,32 +1,34 @@
 #include "adapt/overlaps.hpp"
 
-#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 
 #include "adapt/locator.hpp"
+#include "driftmesh/id_vector.hpp"
 #include "geometry/triangle_geometry.hpp"
 
 namespace driftmesh::adapt {
 namespace {
 
-using Polygon = std::vector<Point>;
-
 /// Keeps what is to the left of the line from a to b (Sutherland and Hodgman).
-void cut_off(Polygon& polygon, const Point& a, const Point& b, Polygon& kept) {
-  kept.clear();
+void cut_off(CommonPolygon& polygon, const Point& a, const Point& b) {
+  std::array<double, CommonPolygon::kMostCorners> beside;
+  for (std::size_t i = 0; i < polygon.size(); ++i) beside[i] = rounded_cross(a, b, polygon[i]);
+  CommonPolygon kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-    const double at_p = rounded_cross(a, b, p), at_q = rounded_cross(a, b, q);
-    if (at_p >= 0) kept.push_back(p);
-    if ((at_p >= 0) == (at_q >= 0)) continue;
-    const double t = at_p / (at_p - at_q);
+    const std::size_t j = i + 1 < polygon.size() ? i + 1 : 0;
+    const Point &p = polygon[i], &q = polygon[j];
+    if (beside[i] >= 0) kept.push_back(p);
+    if ((beside[i] >= 0) == (beside[j] >= 0)) continue;
+    const double t = beside[i] / (beside[i] - beside[j]);
     kept.push_back({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)});
   }
-  polygon.swap(kept);
+  polygon = kept;
 }
 
-double area_of(const Polygon& polygon) {
+double area_of(const CommonPolygon& polygon) {
   double area = 0;
   for (std::size_t i = 2; i < polygon.size(); ++i) area += signed_area(polygon[0], polygon[i - 1], polygon[i]);
   return area;
@@ -37,7 +39,8 @@ class Search {
  public:
   explicit Search(const Triangulation& mesh) : mesh_(mesh), locator_(mesh), seen_(mesh.triangles.size(), 0) {}
 
-  /// From the triangle at the centroid on, across edges. Calls visit(old triangle, polygon).
+  /// From the triangle at the centroid on, across the edges beyond which it reaches. Calls visit(old triangle,
+  /// polygon).
   template <class Visit>
   void operator()(const CornerPoints& triangle, const Visit& visit) {
     ++search_;
@@ -45,13 +48,23 @@ class Search {
     while (!open_.empty()) {
       const TriangleId t = open_.back();
       open_.pop_back();
-      polygon_.assign(triangle.begin(), triangle.end());
-      for (int i = 0; i < 3 && !polygon_.empty(); ++i)
-        cut_off(polygon_, mesh_.corner(t, i), mesh_.corner(t, next(i)), kept_);
-      if (polygon_.size() < 3) continue;
-      visit(t, polygon_);
+      CommonPolygon polygon;
+      for (const Point& p : triangle) polygon.push_back(p);
+      std::array<bool, 3> reaches_beyond{};
+      for (int i = 0; i < 3 && polygon.size() > 0; ++i) {
+        const Point &a = mesh_.corner(t, i), &b = mesh_.corner(t, next(i));
+        const int left = (rounded_cross(a, b, triangle[0]) >= 0) + (rounded_cross(a, b, triangle[1]) >= 0) +
+                         (rounded_cross(a, b, triangle[2]) >= 0);
+        reaches_beyond[i] = left < 3;
+        if (left == 0) polygon.clear();
+        if (left == 1 || left == 2) cut_off(polygon, a, b);
+      }
+      if (polygon.size() < 3) continue;
+      visit(t, polygon);
       for (int i = 0; i < 3; ++i)
-        if (const HalfEdge beyond = mesh_.across(half_edge(t, i)); beyond != kNone) enter(triangle_of(beyond));
+        if (reaches_beyond[i])
+          if (const HalfEdge beyond = mesh_.across(half_edge(t, previous(i))); beyond != kNone)
+            enter(triangle_of(beyond));
     }
   }
 
@@ -65,7 +78,6 @@ class Search {
   std::vector<std::uint32_t> seen_;  // the last search that came to each triangle
   std::uint32_t search_ = 0;
   std::vector<TriangleId> open_;
-  Polygon polygon_, kept_;
 };
 
 }  // namespace
@@ -74,13 +86,25 @@ std::vector<Overlap> overlaps_of(const Triangulation& old_mesh, const Triangulat
                                  const std::function<bool(TriangleId)>& is_new) {
   std::vector<Overlap> all;
   Search search(old_mesh);
-  for (const TriangleId t : ids_of(new_mesh.triangles)) {
-    if (!new_mesh.triangles[t].alive() || !is_new(t)) continue;
-    search({new_mesh.corner(t, 0), new_mesh.corner(t, 1), new_mesh.corner(t, 2)},
-           [&](TriangleId old, const Polygon& polygon) {
-             if (const double area = area_of(polygon); area > 0) all.push_back({old, t, polygon, area});
-           });
-  }
+  // From each triangle to one beside it, so that the search finds the next one near the last one.
+  IdVector<TriangleId, bool> is_left(new_mesh.triangles.size(), false);
+  for (const TriangleId t : ids_of(new_mesh.triangles)) is_left[t] = new_mesh.triangles[t].alive() && is_new(t);
+  std::vector<TriangleId> open;
+  const auto enter = [&](TriangleId t) {
+    if (is_left[t]) open.push_back(t);
+    is_left[t] = false;
+  };
+  for (const TriangleId first : ids_of(new_mesh.triangles))
+    for (enter(first); !open.empty();) {
+      const TriangleId t = open.back();
+      open.pop_back();
+      search({new_mesh.corner(t, 0), new_mesh.corner(t, 1), new_mesh.corner(t, 2)},
+             [&](TriangleId old, const CommonPolygon& polygon) {
+               if (const double area = area_of(polygon); area > 0) all.push_back({old, t, polygon, area});
+             });
+      for (int i = 0; i < 3; ++i)
+        if (const HalfEdge beyond = new_mesh.across(half_edge(t, i)); beyond != kNone) enter(triangle_of(beyond));
+    }
   return all;
 }
 
