@@ -3,12 +3,16 @@
 with a field at points that is carried along. Each generation is checked and compared with a mesh made anew by the same lengths;
 prints a table in Markdown (docs/results/adaptive.md). Processor time on one thread. Needs the Python package on PYTHONPATH.
 
-usage: adaptive.py [--generations N] [--every N] [--length L]... [--program DRIFTMESH] [--update]
+usage: adaptive.py [--generations N] [--every N] [--length L]... [--freefem] [--program DRIFTMESH] [--update]
 """
 
 import argparse
 import pathlib
+import shutil
+import statistics
+import subprocess
 import sys
+import tempfile
 import time
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
@@ -90,18 +94,73 @@ def measured(options):
     return table
 
 
+PEER = """
+func real h(real radius) {{ return {shortest} + {growth} * max(0., abs(sqrt((x - 0.5)^2 + (y - 0.5)^2) - radius) - {width} / 2); }}
+mesh T = square(10, 10);
+for (int k = 0; k < 12; ++k) T = adaptmesh(T, h({first}), IsMetric = 1, nbvx = 10000000, hmax = 1, verbosity = 0);
+fespace V(T, P1);
+V u = x;
+real start = clock();
+mesh N = adaptmesh(T, h({second}), IsMetric = 1, nbvx = 10000000, hmax = 1, verbosity = 0);
+fespace W(N, P1);
+W v = u;
+cout << "made " << N.nt << " " << clock() - start << endl;
+"""
+PEERS_RADII = (RADIUS, RADIUS + WIDTH)
+
+
+def by_freefem(program, shortest):
+    """Triangles and seconds of adaptmesh with an isotropic metric, interpolation of one field included."""
+    with tempfile.TemporaryDirectory() as folder:
+        script = pathlib.Path(folder, "ring.edp")
+        script.write_text(PEER.format(shortest=shortest, growth=GROWTH, width=WIDTH, first=PEERS_RADII[0], second=PEERS_RADII[1]))
+        said = subprocess.run([program, "-nw", "-v", "0", script], check=True, capture_output=True, text=True).stdout
+    triangles, seconds = said[said.index("made "):].split()[1:3]
+    return int(triangles), float(seconds)
+
+
+def by_driftmesh(shortest):
+    """The same, with a conserving transfer."""
+    first, second = (round((radius - RADIUS) / STEP) for radius in PEERS_RADII)
+    mesh = driftmesh.AdaptiveMesh(square(), max_area=1e-3, threads=1, gradation=GROWTH)
+    for _ in range(12):
+        mesh.adapt(ring(mesh.mesh.points, shortest, first))
+    mesh.attach("u", mesh.mesh.points[:, 0], transfer="conserve")
+    lengths = ring(mesh.mesh.points, shortest, second)
+    seconds = timed(lambda: mesh.adapt(lengths))[1]
+    return len(mesh.mesh.triangles), np.count_nonzero(mesh.stayed_triangles < 0), seconds
+
+
+def beside_freefem(options):
+    program = shutil.which("FreeFem++-nw")
+    if program is None:
+        raise SystemExit("FreeFem++-nw is not there; install freefem++")
+    table = Table("adaptive-freefem", "A ring that jumps, beside FreeFEM's adaptmesh",
+                  ["shortest", "triangles", "share that is new", "us for each", "FreeFEM: triangles", "us for each", "ratio"],
+                  f"From radius {PEERS_RADII[0]:g} to {PEERS_RADII[1]:g}, by the same lengths at points. Processor time on one thread with transfer of one field: ours "
+                  f"conserves it, FreeFEM's interpolates; medians of {options.repetitions}.")
+    for shortest in options.length or [0.002, 0.001]:
+        runs = [(*by_driftmesh(shortest), *by_freefem(program, shortest)) for _ in range(options.repetitions)]
+        ours, new, _, peers, _ = runs[0]
+        each, peer = statistics.median(run[2] for run in runs) / ours * 1e6, statistics.median(run[4] for run in runs) / peers * 1e6
+        table.add(shortest, ours, f"{new / ours:.2f}", f"{each:.2f}", peers, f"{peer:.1f}", f"{peer / each:.0f}")
+    return table
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\nusage")[0])
     parser.add_argument("--generations", type=int, default=20)
     parser.add_argument("--every", type=int, default=10, help="check and compare only every N-th generation")
     parser.add_argument("--length", type=float, action="append", help="shortest length in the ring; 0.0005 makes about 2 million triangles")
+    parser.add_argument("--repetitions", type=int, default=3, help="beside FreeFEM")
+    parser.add_argument("--freefem", action="store_true", help="compare with FreeFEM's adaptmesh instead")
     parser.add_argument("--program", default=PROJECT / "build/release/driftmesh", help="says which compiler it was")
     results.add_option(parser)
     options = parser.parse_args()
     global driftmesh, np  # only to measure: --help does without
     import driftmesh
     import numpy as np
-    results.show("bench/adaptive.py", map(measured, [options]), options)
+    results.show("bench/adaptive.py", map(beside_freefem if options.freefem else measured, [options]), options)
 
 
 if __name__ == "__main__":
