@@ -33,8 +33,7 @@ Locator::Locator(const Triangulation& mesh) : mesh_(mesh) {
 }
 
 /// Across the edge that separates the triangle most from the point, until there is none, or nothing beyond it.
-Locator::Stop Locator::walk(TriangleId start, const Point& p) const {
-  const auto most_steps = 100 + 4 * static_cast<int>(std::sqrt(static_cast<double>(mesh_.triangles.size())));
+Locator::Stop Locator::walk(TriangleId start, const Point& p, int most_steps) const {
   Stop stop{start};
   for (int step = 0; step < most_steps; ++step) {
     const Triangle& t = mesh_.triangles[stop.triangle];
@@ -139,9 +138,12 @@ Locator::Place Locator::place_at(const Stop& stop, const Point& p) const {
 }
 
 Locator::Place Locator::locate(const Point& p) const {
-  Stop stop = walk(last_, p);
+  constexpr int kShort = 8;
+  Stop stop = walk(last_, p, kShort);
   if (!is_settled(stop, p)) {
-    if (const TriangleId start = start_near(p); start != kNone) stop = walk(start, p);
+    const TriangleId start = start_near(p);
+    const auto most_steps = 100 + 4 * static_cast<int>(std::sqrt(static_cast<double>(mesh_.triangles.size())));
+    stop = walk(start != kNone ? start : stop.triangle, p, most_steps);
     if (!is_settled(stop, p)) stop = search(p);
   }
   last_ = stop.triangle;

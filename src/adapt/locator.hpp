@@ -29,7 +29,7 @@ class Locator {
   static constexpr int kNoCorner = -1;
   struct Stop;
 
-  [[nodiscard]] Stop walk(TriangleId start, const Point& p) const;
+  [[nodiscard]] Stop walk(TriangleId start, const Point& p, int most_steps) const;
   [[nodiscard]] bool is_settled(const Stop& stop, const Point& p) const;
   [[nodiscard]] TriangleId start_near(const Point& p) const;
   void make_starts() const;
@@ -39,8 +39,8 @@ class Locator {
   const Triangulation& mesh_;
   mutable TriangleId last_ = kNone;
 
-  // For walks that end at the boundary of a domain that is not convex: a triangle near each square of a grid. Made when
-  // the first of them does.
+  // For long walks, and those that end at the boundary of a domain that is not convex: a triangle near each square of a
+  // grid. Made when the first of them does.
   mutable std::vector<TriangleId> starts_;
   mutable Point low_{};
   mutable double width_ = 0;
