@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <utility>
 
 #include "adapt/interpolate.hpp"
@@ -80,19 +81,42 @@ struct Overlaps {
   IdVector<TriangleId, double>
       correction{};  ///< an old triangle's area over the sum of its overlaps: 1 but for rounding
 
-  /// Other triangles have no overlaps but for rounding.
-  explicit Overlaps(const Lineage::Change& change) {
+  /// Other triangles have no overlaps but for rounding. `room`: memory for them.
+  Overlaps(const Lineage::Change& change, std::vector<Overlap> room) : list(std::move(room)) {
+    list.clear();
     if (change.is_the_same) return;
     IdVector<TriangleId, bool> stays(change.old_mesh.triangles.size(), false);
     for (const TriangleId from : change.same)
       if (from != kNone) stays[from] = true;
-    list = overlaps_of(change.old_mesh, change.new_mesh, [&](TriangleId t) { return change.same[t] == kNone; });
+    const auto is_new = [&](TriangleId t) { return change.same[t] == kNone; };
+    find_overlaps(change.old_mesh, change.new_mesh, is_new, list);
     std::erase_if(list, [&](const Overlap& o) { return stays[o.old_triangle]; });
     correction.assign(change.old_mesh.triangles.size(), 0);
     for (const Overlap& o : list) correction[o.old_triangle] += o.area;
     for (const TriangleId t : ids_of(change.old_mesh.triangles))
       if (correction[t] > 0) correction[t] = area_of(change.old_mesh, t) / correction[t];
   }
+};
+
+/// Memory that goes from one subdomain to the next: fresh pages would take as long as what is put into them. For
+/// several threads.
+class SpareRoom {
+ public:
+  [[nodiscard]] std::vector<Overlap> take() {
+    const std::lock_guard lock(mutex_);
+    if (rooms_.empty()) return {};
+    std::vector<Overlap> room = std::move(rooms_.back());
+    rooms_.pop_back();
+    return room;
+  }
+  void give(std::vector<Overlap> room) {
+    const std::lock_guard lock(mutex_);
+    rooms_.push_back(std::move(room));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::vector<Overlap>> rooms_;
 };
 
 struct Range {
@@ -386,10 +410,12 @@ std::unique_ptr<OnItsWay> on_its_way(const Lineage& lineage, const ConservedFiel
 std::vector<std::vector<double>> conserved(const Lineage& lineage, std::span<const ConservedField> fields) {
   std::vector<std::unique_ptr<OnItsWay>> under_way;
   for (const ConservedField& field : fields) under_way.push_back(on_its_way(lineage, field));
+  SpareRoom spare;
   if (!fields.empty())
     lineage.visit_parts([&](SubdomainId s, const Lineage::Change& change) {
-      const Overlaps overlaps(change);
+      Overlaps overlaps(change, spare.take());
       for (const auto& field : under_way) field->take(s, change, overlaps);
+      spare.give(std::move(overlaps.list));
     });
   std::vector<std::vector<double>> values;
   for (const auto& field : under_way) values.push_back(field->values());

@@ -82,9 +82,9 @@ class Search {
 
 }  // namespace
 
-std::vector<Overlap> overlaps_of(const Triangulation& old_mesh, const Triangulation& new_mesh,
-                                 const std::function<bool(TriangleId)>& is_new) {
-  std::vector<Overlap> all;
+void find_overlaps(const Triangulation& old_mesh, const Triangulation& new_mesh,
+                   const std::function<bool(TriangleId)>& is_new, std::vector<Overlap>& found) {
+  found.clear();
   Search search(old_mesh);
   // From each triangle to one beside it, so that the search finds the next one near the last one.
   IdVector<TriangleId, bool> is_left(new_mesh.triangles.size(), false);
@@ -100,12 +100,11 @@ std::vector<Overlap> overlaps_of(const Triangulation& old_mesh, const Triangulat
       open.pop_back();
       search({new_mesh.corner(t, 0), new_mesh.corner(t, 1), new_mesh.corner(t, 2)},
              [&](TriangleId old, const CommonPolygon& polygon) {
-               if (const double area = area_of(polygon); area > 0) all.push_back({old, t, polygon, area});
+               if (const double area = area_of(polygon); area > 0) found.push_back({old, t, polygon, area});
              });
       for (int i = 0; i < 3; ++i)
         if (const HalfEdge beyond = new_mesh.across(half_edge(t, i)); beyond != kNone) enter(triangle_of(beyond));
     }
-  return all;
 }
 
 }  // namespace driftmesh::adapt

@@ -41,10 +41,10 @@ struct Overlap {
   double area = 0;
 };
 
-/// All overlaps of new triangles that `is_new` names with old ones, those of a new triangle behind each other. Both
-/// meshes cover the same polygon. Overlaps are rounded: those of an old triangle sum up to its area but for some 1e-15
-/// of its size.
-[[nodiscard]] std::vector<Overlap> overlaps_of(const Triangulation& old_mesh, const Triangulation& new_mesh,
-                                               const std::function<bool(TriangleId)>& is_new);
+/// Finds all overlaps of new triangles that `is_new` names with old ones, those of a new triangle behind each other,
+/// and puts them into `found` in place of what is there. Both meshes cover the same polygon. Overlaps are rounded:
+/// those of an old triangle sum up to its area but for some 1e-15 of its size.
+void find_overlaps(const Triangulation& old_mesh, const Triangulation& new_mesh,
+                   const std::function<bool(TriangleId)>& is_new, std::vector<Overlap>& found);
 
 }  // namespace driftmesh::adapt
