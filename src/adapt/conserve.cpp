@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <utility>
 
 #include "adapt/interpolate.hpp"
@@ -40,11 +41,10 @@ class WeightsIn {
 /// What an overlap adds to integrals over the new triangle.
 class Share {
  public:
-  Share(const Overlap& overlap, const Lineage::Change& change, double correction)
-      : size_(overlap.polygon.size()), in_old_(), in_new_(), areas_() {
+  Share(const Overlap& overlap, std::span<const Point> polygon, const Lineage::Change& change, double correction)
+      : size_(polygon.size()), in_old_(), in_new_(), areas_() {
     const WeightsIn old_triangle(change.old_mesh, overlap.old_triangle);
     const WeightsIn new_triangle(change.new_mesh, overlap.new_triangle);
-    const CommonPolygon& polygon = overlap.polygon;
     for (std::size_t i = 0; i < size_; ++i) {
       in_old_[i] = old_triangle.at(polygon[i]);
       in_new_[i] = new_triangle.at(polygon[i]);
@@ -55,7 +55,7 @@ class Share {
   /// The integrals of the function that is linear in the old triangle, with these values at its corners, times that of
   /// each corner of the new one: exact in each of the triangles around the first corner of the polygon.
   [[nodiscard]] Weights moments(const std::array<double, 3>& at_old) const {
-    std::array<double, CommonPolygon::kMostCorners> value{};
+    std::array<double, OverlapList::kMostCorners> value{};
     for (std::size_t i = 0; i < size_; ++i)
       value[i] = in_old_[i][0] * at_old[0] + in_old_[i][1] * at_old[1] + in_old_[i][2] * at_old[2];
     Weights moments{};
@@ -71,28 +71,28 @@ class Share {
 
  private:
   std::size_t size_;
-  std::array<Weights, CommonPolygon::kMostCorners> in_old_, in_new_;  // the corners of the polygon
-  std::array<double, CommonPolygon::kMostCorners> areas_;             // of the triangle that ends at each
+  std::array<Weights, OverlapList::kMostCorners> in_old_, in_new_;  // the corners of the polygon
+  std::array<double, OverlapList::kMostCorners> areas_;             // of the triangle that ends at each
 };
 
 /// What the new triangles of a subdomain overlap of those that are gone.
 struct Overlaps {
-  std::vector<Overlap> list;  ///< new triangle by new triangle
+  OverlapList found;
   IdVector<TriangleId, double>
       correction{};  ///< an old triangle's area over the sum of its overlaps: 1 but for rounding
 
   /// Other triangles have no overlaps but for rounding. `room`: memory for them.
-  Overlaps(const Lineage::Change& change, std::vector<Overlap> room) : list(std::move(room)) {
-    list.clear();
+  Overlaps(const Lineage::Change& change, OverlapList room) : found(std::move(room)) {
+    found.overlaps.clear();
     if (change.is_the_same) return;
     IdVector<TriangleId, bool> stays(change.old_mesh.triangles.size(), false);
     for (const TriangleId from : change.same)
       if (from != kNone) stays[from] = true;
     const auto is_new = [&](TriangleId t) { return change.same[t] == kNone; };
-    find_overlaps(change.old_mesh, change.new_mesh, is_new, list);
-    std::erase_if(list, [&](const Overlap& o) { return stays[o.old_triangle]; });
+    find_overlaps(change.old_mesh, change.new_mesh, is_new, found);
+    std::erase_if(found.overlaps, [&](const Overlap& o) { return stays[o.old_triangle]; });
     correction.assign(change.old_mesh.triangles.size(), 0);
-    for (const Overlap& o : list) correction[o.old_triangle] += o.area;
+    for (const Overlap& o : found.overlaps) correction[o.old_triangle] += o.area;
     for (const TriangleId t : ids_of(change.old_mesh.triangles))
       if (correction[t] > 0) correction[t] = area_of(change.old_mesh, t) / correction[t];
   }
@@ -102,21 +102,21 @@ struct Overlaps {
 /// several threads.
 class SpareRoom {
  public:
-  [[nodiscard]] std::vector<Overlap> take() {
+  [[nodiscard]] OverlapList take() {
     const std::lock_guard lock(mutex_);
     if (rooms_.empty()) return {};
-    std::vector<Overlap> room = std::move(rooms_.back());
+    OverlapList room = std::move(rooms_.back());
     rooms_.pop_back();
     return room;
   }
-  void give(std::vector<Overlap> room) {
+  void give(OverlapList room) {
     const std::lock_guard lock(mutex_);
     rooms_.push_back(std::move(room));
   }
 
  private:
   std::mutex mutex_;
-  std::vector<std::vector<Overlap>> rooms_;
+  std::vector<OverlapList> rooms_;
 };
 
 struct Range {
@@ -163,7 +163,7 @@ class AtTriangles final : public OnItsWay {
 
   void take(SubdomainId /*s*/, const Lineage::Change& change, const Overlaps& overlaps) override {
     if (change.is_the_same) return;
-    for (const Overlap& o : overlaps.list)
+    for (const Overlap& o : overlaps.found.overlaps)
       for (std::size_t k = 0; k < components(); ++k) {
         const double from = old()[place(change.old_number[o.old_triangle], k)];
         values_[place(change.new_number[o.new_triangle], k)] += from * o.area * overlaps.correction[o.old_triangle];
@@ -197,7 +197,7 @@ class AtCorners final : public OnItsWay {
   }
 
   void take(SubdomainId /*s*/, const Lineage::Change& change, const Overlaps& overlaps) override {
-    const std::vector<Overlap>& list = overlaps.list;
+    const std::vector<Overlap>& list = overlaps.found.overlaps;
     for (std::size_t first = 0, end = 0; first < list.size(); first = end) {
       while (end < list.size() && list[end].new_triangle == list[first].new_triangle) ++end;
       for (std::size_t k = 0; k < components(); ++k) project(change, overlaps, first, end, k);
@@ -214,17 +214,17 @@ class AtCorners final : public OnItsWay {
   /// The component of the triangle whose overlaps are those from `first` to `end`.
   void project(const Lineage::Change& change, const Overlaps& overlaps, std::size_t first, std::size_t end,
                std::size_t k) {
-    const TriangleId t = overlaps.list[first].new_triangle;
+    const TriangleId t = overlaps.found.overlaps[first].new_triangle;
     Weights moments{};  // integrals with the function of each corner
     Range range;
     for (std::size_t j = first; j < end; ++j) {
-      const Overlap& o = overlaps.list[j];
+      const Overlap& o = overlaps.found.overlaps[j];
       std::array<double, 3> at{};
       for (int i = 0; i < 3; ++i) {
         at[i] = old()[place(change.old_number[o.old_triangle], i, k)];
         range.add(at[i]);
       }
-      const Weights more = Share(o, change, overlaps.correction[o.old_triangle]).moments(at);
+      const Weights more = Share(o, overlaps.found.polygon(o), change, overlaps.correction[o.old_triangle]).moments(at);
       for (int i = 0; i < 3; ++i) moments[i] += more[i];
     }
     const double all = moments[0] + moments[1] + moments[2], area = area_of(change.new_mesh, t);
@@ -296,10 +296,10 @@ class AtPoints final : public OnItsWay {
   }
 
   void take_overlaps(const Lineage::Change& change, const Overlaps& overlaps, Sums& sums) const {
-    for (const Overlap& o : overlaps.list) {
+    for (const Overlap& o : overlaps.found.overlaps) {
       const auto& from = change.old_mesh.triangles[o.old_triangle].vertex;
       const auto& to = change.new_mesh.triangles[o.new_triangle].vertex;
-      const Share share(o, change, overlaps.correction[o.old_triangle]);
+      const Share share(o, overlaps.found.polygon(o), change, overlaps.correction[o.old_triangle]);
       for (std::size_t k = 0; k < components(); ++k) {
         std::array<double, 3> at{};
         for (int i = 0; i < 3; ++i) at[i] = old()[to_index(change.old_place[from[i]]) * components() + k];
@@ -415,7 +415,7 @@ std::vector<std::vector<double>> conserved(const Lineage& lineage, std::span<con
     lineage.visit_parts([&](SubdomainId s, const Lineage::Change& change) {
       Overlaps overlaps(change, spare.take());
       for (const auto& field : under_way) field->take(s, change, overlaps);
-      spare.give(std::move(overlaps.list));
+      spare.give(std::move(overlaps.found));
     });
   std::vector<std::vector<double>> values;
   for (const auto& field : under_way) values.push_back(field->values());

@@ -6,15 +6,33 @@
 #include <utility>
 
 #include "adapt/locator.hpp"
+#include "base/assert.hpp"
 #include "driftmesh/id_vector.hpp"
 #include "geometry/triangle_geometry.hpp"
 
 namespace driftmesh::adapt {
 namespace {
 
+class CommonPolygon {
+ public:
+  [[nodiscard]] const Point* begin() const { return corners_.data(); }
+  [[nodiscard]] const Point* end() const { return corners_.data() + size_; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] const Point& operator[](std::size_t i) const { return corners_[i]; }
+  void clear() { size_ = 0; }
+  void push_back(const Point& p) {
+    DM_ASSERT(size_ < corners_.size());
+    corners_[size_++] = p;
+  }
+
+ private:
+  std::array<Point, OverlapList::kMostCorners> corners_;
+  std::size_t size_ = 0;
+};
+
 /// Keeps what is to the left of the line from a to b (Sutherland and Hodgman).
 void cut_off(CommonPolygon& polygon, const Point& a, const Point& b) {
-  std::array<double, CommonPolygon::kMostCorners> beside;
+  std::array<double, OverlapList::kMostCorners> beside;
   for (std::size_t i = 0; i < polygon.size(); ++i) beside[i] = rounded_cross(a, b, polygon[i]);
   CommonPolygon kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -83,8 +101,9 @@ class Search {
 }  // namespace
 
 void find_overlaps(const Triangulation& old_mesh, const Triangulation& new_mesh,
-                   const std::function<bool(TriangleId)>& is_new, std::vector<Overlap>& found) {
-  found.clear();
+                   const std::function<bool(TriangleId)>& is_new, OverlapList& found) {
+  found.overlaps.clear();
+  found.corners.clear();
   Search search(old_mesh);
   // From each triangle to one beside it, so that the search finds the next one near the last one.
   IdVector<TriangleId, bool> is_left(new_mesh.triangles.size(), false);
@@ -100,7 +119,11 @@ void find_overlaps(const Triangulation& old_mesh, const Triangulation& new_mesh,
       open.pop_back();
       search({new_mesh.corner(t, 0), new_mesh.corner(t, 1), new_mesh.corner(t, 2)},
              [&](TriangleId old, const CommonPolygon& polygon) {
-               if (const double area = area_of(polygon); area > 0) found.push_back({old, t, polygon, area});
+               const double area = area_of(polygon);
+               if (!(area > 0)) return;
+               const auto begin = static_cast<std::uint32_t>(found.corners.size());
+               found.corners.insert(found.corners.end(), polygon.begin(), polygon.end());
+               found.overlaps.push_back({old, t, begin, static_cast<std::uint32_t>(found.corners.size()), area});
              });
       for (int i = 0; i < 3; ++i)
         if (const HalfEdge beyond = new_mesh.across(half_edge(t, i)); beyond != kNone) enter(triangle_of(beyond));
