@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "geometry/box.hpp"
 #include "geometry/segment_geometry.hpp"
@@ -24,6 +25,7 @@ struct Locator::Stop {
   TriangleId triangle{};
   std::array<double, 3> side{};  // twice the area between the point and the edge opposite each corner, with exact sign
   int least = 0;                 // which of them is the least; < 0: the point is beyond that edge
+  bool beyond = false;           // by more than rounding
   [[nodiscard]] bool inside() const { return side[least] >= 0; }
 };
 
@@ -86,31 +88,41 @@ TriangleId Locator::start_near(const Point& p) const {
   return starts_[column(p.y - low_.y) * columns_ + column(p.x - low_.x)];
 }
 
-/// Looks at all triangles: the one that contains the point, or else the one whose boundary edge is nearest.
-Locator::Stop Locator::search(const Point& p) const {
-  Stop nearest;
-  double least = std::numeric_limits<double>::infinity();
+void Locator::index_all() const {
+  std::vector<BackgroundMesh::Triangle> triangles;
   for (const TriangleId t : ids_of(mesh_.triangles)) {
     if (!mesh_.triangles[t].alive()) continue;
-    Stop stop{t};
-    for (int i = 0; i < 3; ++i) stop.side[i] = orient2d(mesh_.corner(t, next(i)), mesh_.corner(t, previous(i)), p);
-    stop.least = static_cast<int>(std::ranges::min_element(stop.side) - stop.side.begin());
-    if (stop.inside()) return stop;
-    for (int i = 0; i < 3; ++i) {
-      if (mesh_.across(half_edge(t, i)) != kNone) continue;
-      const double distance = squared_distance_to_segment(p, mesh_.corner(t, next(i)), mesh_.corner(t, previous(i)));
-      if (distance >= least) continue;
-      least = distance;
-      nearest = stop;
-      nearest.least = i;
-      nearest.side[i] = std::min(nearest.side[i], -0.0);
-    }
+    const auto& [a, b, c] = mesh_.triangles[t].vertex;
+    triangles.push_back({to_int(a), to_int(b), to_int(c)});
+    in_all_.push_back(t);
   }
-  return nearest;
+  all_ = std::make_shared<const BackgroundMesh>(std::vector<Point>(mesh_.points.begin(), mesh_.points.end()),
+                                                std::move(triangles));
+}
+
+/// Among all triangles: one that contains the point, or else the one whose boundary edge is nearest.
+Locator::Stop Locator::search(const Point& p) const {
+  if (!all_) index_all();
+  Stop stop{in_all_[to_index(all_->locate(p).triangle)]};
+  const TriangleId t = stop.triangle;
+  for (int i = 0; i < 3; ++i) stop.side[i] = orient2d(mesh_.corner(t, next(i)), mesh_.corner(t, previous(i)), p);
+  stop.least = static_cast<int>(std::ranges::min_element(stop.side) - stop.side.begin());
+  if (stop.inside()) return stop;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    if (mesh_.across(half_edge(t, i)) != kNone) continue;
+    const double distance = squared_distance_to_segment(p, mesh_.corner(t, next(i)), mesh_.corner(t, previous(i)));
+    if (distance >= least) continue;
+    least = distance;
+    stop.least = i;
+  }
+  stop.side[stop.least] = std::min(stop.side[stop.least], -0.0);
+  stop.beyond = true;
+  return stop;
 }
 
 Locator::Place Locator::place_at(const Stop& stop, const Point& p) const {
-  Place place{stop.triangle};
+  Place place{.triangle = stop.triangle, .beyond = stop.beyond};
   const auto at_corner = [&](int i) {
     place.weight = {};
     place.weight[i] = 1;

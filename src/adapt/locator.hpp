@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "driftmesh/point.hpp"
 #include "mesh/triangulation.hpp"
+#include "sizing/background_mesh.hpp"
 
 namespace driftmesh::adapt {
 
@@ -20,9 +22,11 @@ class Locator {
     TriangleId triangle{};
     std::array<double, 3> weight{};  ///< the point as a convex combination of the corners
     int corner = kNoCorner;          ///< the corner at which the point is, if it is at one
+    bool beyond = false;             ///< the point is outside, by more than rounding
     [[nodiscard]] bool is_vertex() const { return corner != kNoCorner; }
   };
-  /// A point outside, as rounding puts them there, has the place of the nearest point of the boundary.
+  /// A point outside, as rounding puts them there, or one of another domain, has the place of the nearest point of the
+  /// boundary.
   [[nodiscard]] Place locate(const Point& p) const;
 
  private:
@@ -33,6 +37,7 @@ class Locator {
   [[nodiscard]] bool is_settled(const Stop& stop, const Point& p) const;
   [[nodiscard]] TriangleId start_near(const Point& p) const;
   void make_starts() const;
+  void index_all() const;
   [[nodiscard]] Stop search(const Point& p) const;
   [[nodiscard]] Place place_at(const Stop& stop, const Point& p) const;
 
@@ -45,6 +50,10 @@ class Locator {
   mutable Point low_{};
   mutable double width_ = 0;
   mutable std::size_t columns_ = 0;
+
+  // For points outside, and where all walks end at the boundary. Made when the first of them comes.
+  mutable std::shared_ptr<const BackgroundMesh> all_;
+  mutable std::vector<TriangleId> in_all_;
 };
 
 }  // namespace driftmesh::adapt

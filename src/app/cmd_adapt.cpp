@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/new_domain.hpp"
+#include "app/number_map.hpp"
 #include "app/progress_line.hpp"
 #include "app/request_line.hpp"
 #include "app/run_files.hpp"
@@ -22,12 +24,14 @@
 #include "cli/values.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/repair.hpp"
-#include "io/file_sink.hpp"
 #include "io/mesh_file.hpp"
+#include "job/input_file.hpp"
 #include "job/watch.hpp"
 #include "mesh/bounds.hpp"
 #include "patch/area.hpp"
+#include "patch/point_data.hpp"
 #include "patch/remake.hpp"
+#include "patch/unmet.hpp"
 #include "pslg/names.hpp"
 
 namespace driftmesh::app {
@@ -38,6 +42,9 @@ struct AdaptCommand {
   std::string lengths;
   std::vector<std::string> transfers;
   std::string only;
+  std::string outline;
+  double tolerance = 0;
+  double threshold = 1.2;
   std::string map;
   double angle = defaults::kMinAngle;
   AdaptiveOptions options;
@@ -45,48 +52,21 @@ struct AdaptCommand {
   ReadOptions reading;
 };
 
-/// A field of the mesh in the file, by its name.
-struct NamedField {
-  std::string name;
-  adapt::Field field;
-};
-
-std::string list_of_names(const std::vector<NamedField>& fields) {
+std::string list_of_names(const std::vector<patch::NamedField>& fields) {
   std::string list;
-  for (const NamedField& named : fields) list += (list.empty() ? "'" : ", '") + named.name + "'";
+  for (const patch::NamedField& named : fields) list += (list.empty() ? "'" : ", '") + named.name + "'";
   return list.empty() ? "it has no point data" : "it has " + list;
 }
 
-/// Attributes are fields of their own from now on.
-std::vector<NamedField> take_fields(Mesh& mesh) {
-  std::vector<NamedField> fields;
-  const auto width = static_cast<std::size_t>(mesh.attributes_per_point);
-  for (std::size_t k = 0; k < width; ++k) {
-    NamedField named{
-        mesh.attribute_names.empty() ? "attribute" + (width > 1 ? std::to_string(k) : "") : mesh.attribute_names[k],
-        {}};
-    for (std::size_t v = 0; v < mesh.points.size(); ++v) named.field.values.push_back(mesh.attributes[v * width + k]);
-    fields.push_back(std::move(named));
-  }
-  mesh.attributes.clear();
-  return fields;
-}
-
-void give_fields(Mesh& mesh, const std::vector<adapt::Field>& fields) {
-  mesh.attributes.resize(mesh.points.size() * fields.size());
-  for (std::size_t k = 0; k < fields.size(); ++k)
-    for (std::size_t v = 0; v < mesh.points.size(); ++v) mesh.attributes[v * fields.size() + k] = fields[k].values[v];
-}
-
-adapt::Field& find_field(std::vector<NamedField>& fields, const std::string& name, const AdaptCommand& command,
+adapt::Field& find_field(std::vector<patch::NamedField>& fields, const std::string& name, const AdaptCommand& command,
                          const char* option) {
-  for (NamedField& named : fields)
+  for (patch::NamedField& named : fields)
     if (named.name == name) return named.field;
   throw InputError({command.mesh}, "has no point data '" + name + "', which " + option + " names",
                    list_of_names(fields));
 }
 
-std::vector<double> lengths_of(std::vector<NamedField>& fields, const AdaptCommand& command) {
+std::vector<double> lengths_of(std::vector<patch::NamedField>& fields, const AdaptCommand& command) {
   const std::vector<double>& lengths = find_field(fields, command.lengths, command, "--lengths").values;
   for (std::size_t v = 0; v < lengths.size(); ++v)
     if (!(lengths[v] > 0))
@@ -97,7 +77,7 @@ std::vector<double> lengths_of(std::vector<NamedField>& fields, const AdaptComma
   return lengths;
 }
 
-void apply_transfers(std::vector<NamedField>& fields, const AdaptCommand& command) {
+void apply_transfers(std::vector<patch::NamedField>& fields, const AdaptCommand& command) {
   for (const std::string& transfer : command.transfers) {
     const std::size_t equals = transfer.rfind('=');
     const std::string how = equals == std::string::npos ? "" : transfer.substr(equals + 1);
@@ -128,10 +108,9 @@ std::optional<double> region_named(const Mesh& mesh, const std::string& text) {
   return region_from(text);
 }
 
-/// The triangles that --only names, or all.
+/// The triangles that --only names.
 std::vector<bool> area_of(const Mesh& mesh, const AdaptCommand& command) {
   const std::string& only = command.only;
-  if (only.empty()) return std::vector<bool>(mesh.triangles.size(), true);
   std::vector<bool> inside;
   if (const std::optional<Box> box = box_from(only)) {
     inside = patch::triangles_in(mesh, *box);
@@ -157,150 +136,219 @@ class StageNotes final : public job::Watch {
  public:
   explicit StageNotes(bool shows) : line_(shows) {}
   void begins(const std::string& stage) override { line_.begin(stage); }
+  void warned(const std::string& warning) override { std::cerr << "warning: " << warning << '\n'; }
   void end() { line_.end(); }
 
  private:
   ProgressLine line_;
 };
 
+std::string outline_summary(const patch::Report& report, const AdaptCommand& command) {
+  std::string text = "outline        ";
+  if (report.gone_edges == 0 && report.pieces == 0)
+    text += "the same as before\n";
+  else
+    text += fmt::format("{} edges gone, {} lines new\n", report.gone_edges, report.pieces);
+  if (report.beyond > 0)
+    text += fmt::format("beyond         {} new points where the mesh was not before: data of its nearest place\n",
+                        report.beyond);
+  if (report.other_markers > 0)
+    text += fmt::format("markers        {} edges that stay keep theirs, which are others in {}\n", report.other_markers,
+                        command.outline);
+  return text;
+}
+
 std::string summary(const patch::Report& report, const Mesh& mesh, std::size_t before, const AdaptCommand& command,
                     const std::vector<job::StageTime>& stages) {
   std::string text = fmt::format("triangles      {} before, {} now: {} gone, {} made\n", before, mesh.triangles.size(),
                                  report.gone, report.made);
+  if (!command.outline.empty()) text += outline_summary(report, command);
   text += fmt::format("points         {} gone, {} made\n", report.gone_points, report.new_points);
-  if (!command.only.empty())
-    text += fmt::format("margin         {} triangles around what was asked for, up to {:.4g} away\n", report.margin,
-                        report.margin_width);
+  if (!command.only.empty() || !command.outline.empty())
+    text += fmt::format("margin         {} triangles around {}, up to {:.4g} away\n", report.margin,
+                        command.outline.empty() ? "what was asked for" : "what touches it", report.margin_width);
   text += "time          ";
   for (const job::StageTime& stage : stages) text += fmt::format(" {} {:.2f} s", stage.name, stage.seconds);
   return text + "\nfile           " + command.output + "\n";
 }
 
-/// The numbers that are new, or are not what they were.
-void write_map(const std::string& path, const patch::Remade& remade) {
-  FileSink out(path);
-  out.text("kind,new,old\n");
-  const auto write = [&](std::string_view kind, const std::vector<std::int32_t>& old) {
-    for (std::size_t i = 0; i < old.size(); ++i) {
-      if (std::cmp_equal(old[i], i)) continue;
-      out.text(kind);
-      out.character(',');
-      out.number(i);
-      out.character(',');
-      out.number(old[i]);
-      out.character('\n');
-    }
-  };
-  write("point", remade.old_points);
-  write("triangle", remade.old_triangles);
-  out.commit();
+/// If more than half has to change, all does.
+patch::Unmet what_is_to_change(const Mesh& mesh, const patch::Order& order, const AdaptCommand& command) {
+  patch::Unmet unmet;
+  try {
+    unmet = patch::find_unmet(mesh, order.lengths, order.options, order.min_angle, command.threshold);
+  } catch (const Error& error) {
+    throw InputError(command.mesh + ": " + error.what());
+  }
+  const auto change = std::ranges::count(unmet.triangles, true);
+  if (command.threshold == 1 || 2 * change > static_cast<std::ptrdiff_t>(mesh.triangles.size()))
+    unmet.triangles.assign(mesh.triangles.size(), true);
+  return unmet;
+}
+
+std::string unmet_summary(const patch::Unmet& unmet, const patch::Report& report, std::size_t before) {
+  const auto kept = static_cast<std::int64_t>(before) - report.gone;
+  return fmt::format(
+      "kept           {} triangles; {} were too large, {} too dense, {} below the angle, {} not Delaunay\n", kept,
+      unmet.too_large, unmet.too_dense, unmet.skinny, unmet.not_delaunay);
+}
+
+void warn_if_nothing_stays(const patch::Remade& remade, const Box& before, const AdaptCommand& command) {
+  if (std::ranges::any_of(remade.old_triangles, [](std::int32_t old) { return old >= 0; })) return;
+  const Box now = Box::of(remade.mesh.points);
+  std::cerr << fmt::format(
+      "warning: nothing of the mesh stays in the domain of {}: the mesh was from {:.10g},{:.10g} to {:.10g},{:.10g}, "
+      "the domain is from {:.10g},{:.10g} to {:.10g},{:.10g}\n",
+      command.outline, before.low.x, before.low.y, before.high.x, before.high.y, now.low.x, now.low.y, now.high.x,
+      now.high.y);
 }
 
 void run_adapt(const AdaptCommand& command) {
-  if (command.lengths.empty() && command.options.shortest == 0 && std::isinf(command.options.longest))
-    throw cli::UsageError("nothing says how long edges are to be; give --lengths, --max-length or --min-length");
+  if (command.lengths.empty() && command.options.shortest == 0 && std::isinf(command.options.longest) &&
+      command.outline.empty())
+    throw cli::UsageError(
+        "nothing says how long edges are to be; give --lengths, --max-length or --min-length, or a new --outline");
+  if (command.outline.empty() && command.tolerance > 0)
+    throw cli::UsageError("--outline-tolerance is for --outline, which is not given");
   FileRegistry files;
   register_mesh_input(files, command.mesh, "MESH", command.reading);
   register_mesh_output(files, command.output, "--output");
   require_whole(command.output);
   register_output(files, command.map, "--map");
+  if (!command.outline.empty())
+    for (const std::string& file : input_files(command.outline)) files.reads(file, "--outline");
   StageNotes notes(!command.quiet);
   Mesh mesh = job::timed(notes, "read", [&] { return read_mesh(command.mesh, command.reading); });
   const std::size_t before = mesh.triangles.size();
-  std::vector<NamedField> named = take_fields(mesh);
+  std::vector<patch::NamedField> named = patch::take_point_data(mesh);
   patch::Order order{.options = command.options, .min_angle = command.angle};
   if (!command.lengths.empty()) order.lengths = lengths_of(named, command);
   apply_transfers(named, command);
-  order.inside = area_of(mesh, command);
+  patch::Unmet unmet;
+  if (!command.only.empty()) {
+    order.inside = area_of(mesh, command);
+  } else if (command.outline.empty()) {
+    unmet = job::timed(notes, "compare", [&] { return what_is_to_change(mesh, order, command); });
+    order.inside = unmet.triangles;
+  }
+  patch::NewDomain domain;
+  if (!command.outline.empty()) {
+    domain = read_new_domain(command.outline, command.tolerance, mesh, notes);
+    order.domain = &domain;
+  }
+  const Box box = Box::of(mesh.points);
   std::vector<adapt::Field> fields;
-  for (NamedField& field : named) fields.push_back(std::move(field.field));
+  for (patch::NamedField& field : named) fields.push_back(std::move(field.field));
   patch::Remade remade = job::timed(notes, "remake", [&] {
     try {
       return patch::remake(std::move(mesh), std::move(fields), order);
     } catch (const LimitError&) {
       throw;
+    } catch (const InputError&) {
+      throw;
     } catch (const Error& error) {
       throw InputError(command.mesh + ": " + error.what());
     }
   });
-  give_fields(remade.mesh, remade.fields);
+  patch::give_point_data(remade.mesh, remade.fields);
   StagedFiles staged;
   job::timed(notes, "write", [&] {
-    if (!command.map.empty()) write_map(command.map, remade);
+    if (!command.map.empty()) write_number_map(command.map, remade.old_points, remade.old_triangles);
     write_mesh(remade.mesh, command.output,
                {.warn = [](const std::string& w) { std::cerr << "warning: " << w << '\n'; }});
   });
   staged.commit();
   notes.end();
-  if (!command.quiet) print(summary(remade.report, remade.mesh, before, command, notes.take_stages()));
+  if (!command.outline.empty()) warn_if_nothing_stays(remade, box, command);
+  if (command.quiet) return;
+  if (!unmet.triangles.empty()) print(unmet_summary(unmet, remade.report, before));
+  print(summary(remade.report, remade.mesh, before, command, notes.take_stages()));
 }
 
 std::vector<cli::Option> adapt_options(AdaptCommand& command) {
   constexpr double kMost = std::numeric_limits<double>::max();
-  return {{.kind = cli::Option::Kind::kPositional,
-           .name = "mesh",
-           .value = "MESH",
-           .help = "The mesh: " + mesh_files_read(),
-           .required = true,
-           .completes = cli::Option::Completes::kFile,
-           .take = cli::into(command.mesh)},
-          {.name = "output",
-           .letter = 'o',
-           .value = "NEW",
-           .help = "The new mesh; its extension selects the format: " + mesh_files_written(),
-           .required = true,
-           .completes = cli::Option::Completes::kFile,
-           .take = cli::into(command.output)},
-          {.name = "lengths",
-           .value = "NAME",
-           .help = "The point data that have the length of edges that is wanted at each point, linear between them",
-           .take = cli::into(command.lengths)},
-          {.name = "transfer",
-           .value = "NAME[=conserve]",
-           .help = "How point data get to the new mesh: interpolated, as all are, or such that their integrals stay",
-           .repeats = true,
-           .take = cli::into(command.transfers)},
-          {.name = "only",
-           .value = "AREA",
-           .help = "Make only this part anew, and as much around it as the angle bound takes; all else keeps its "
-                   "points, triangles and numbers: a box x0,y0,x1,y1, the name or number of a region, or a file of "
-                   "polygons",
-           .completes = cli::Option::Completes::kFile,
-           .take = cli::into(command.only)},
-          {.name = "map",
-           .value = "FILE.csv",
-           .help = "Write which points and triangles are new (old number -1) or have another number than before, "
-                   "counted from 0",
-           .completes = cli::Option::Completes::kFile,
-           .take = cli::into(command.map)},
-          {.name = "angle",
-           .letter = 'q',
-           .value = "DEGREES",
-           .help = "Smallest angle of new triangles, except where the outline has smaller ones",
-           .standard = fmt::format("{}", defaults::kMinAngle),
-           .take = cli::into(command.angle, {0, kMaxAngle})},
-          {.name = "min-length",
-           .value = "LENGTH",
-           .help = "Shorter lengths are raised to this one",
-           .take = cli::into(command.options.shortest, {0, kMost})},
-          {.name = "max-length",
-           .value = "LENGTH",
-           .help = "Longer lengths are lowered to this one",
-           .take = cli::into(command.options.longest, {.least = 0, .most = kMost, .above = true})},
-          {.name = "gradation",
-           .value = "GROWTH",
-           .help = "Lengths grow by at most this much per unit of distance; 0: no limit",
-           .standard = "0.2",
-           .take = cli::into(command.options.gradation, {0, kMost})},
-          {.name = "max-triangles",
-           .value = "COUNT",
-           .help = "Stop if what is made anew would have more triangles",
-           .take = cli::into(command.options.most_triangles, {.least = 0, .most = kMost, .above = true})},
-          {.kind = cli::Option::Kind::kFlag,
-           .name = "quiet",
-           .help = "Print no summary and no progress",
-           .take = cli::into(command.quiet)},
-          allow_outside_option(command.reading)};
+  return {
+      {.kind = cli::Option::Kind::kPositional,
+       .name = "mesh",
+       .value = "MESH",
+       .help = "The mesh: " + mesh_files_read(),
+       .required = true,
+       .completes = cli::Option::Completes::kFile,
+       .take = cli::into(command.mesh)},
+      {.name = "output",
+       .letter = 'o',
+       .value = "NEW",
+       .help = "The new mesh; its extension selects the format: " + mesh_files_written(),
+       .required = true,
+       .completes = cli::Option::Completes::kFile,
+       .take = cli::into(command.output)},
+      {.name = "lengths",
+       .value = "NAME",
+       .help = "The point data that have the length of edges that is wanted at each point, linear between them",
+       .take = cli::into(command.lengths)},
+      {.name = "transfer",
+       .value = "NAME[=conserve]",
+       .help = "How point data get to the new mesh: interpolated, as all are, or such that their integrals stay",
+       .repeats = true,
+       .take = cli::into(command.transfers)},
+      {.name = "only",
+       .value = "AREA",
+       .help = "Make only this part anew, and as much around it as the angle bound takes; all else keeps its "
+               "points, triangles and numbers: a box x0,y0,x1,y1, the name or number of a region, or a file of "
+               "polygons",
+       .completes = cli::Option::Completes::kFile,
+       .take = cli::into(command.only)},
+      {.name = "outline",
+       .value = "FILE",
+       .help = "The domain that the mesh is to have from now on, in a file as driftmesh mesh reads it; made anew is "
+               "what touches a line where the outlines differ, and as much around it as the angle bound takes",
+       .completes = cli::Option::Completes::kFile,
+       .take = cli::into(command.outline)},
+      {.name = "outline-tolerance",
+       .value = "LENGTH",
+       .help = "Lines of both outlines that are so near to each other are the same; 0: as near as rounding puts them",
+       .standard = "0",
+       .take = cli::into(command.tolerance, {0, kMost})},
+      {.name = "map",
+       .value = "FILE.csv",
+       .help = "Write which points and triangles are new (old number -1) or have another number than before, "
+               "counted from 0",
+       .completes = cli::Option::Completes::kFile,
+       .take = cli::into(command.map)},
+      {.name = "angle",
+       .letter = 'q',
+       .value = "DEGREES",
+       .help = "Smallest angle of new triangles, except where the outline has smaller ones",
+       .standard = fmt::format("{}", defaults::kMinAngle),
+       .take = cli::into(command.angle, {0, kMaxAngle})},
+      {.name = "min-length",
+       .value = "LENGTH",
+       .help = "Shorter lengths are raised to this one",
+       .take = cli::into(command.options.shortest, {0, kMost})},
+      {.name = "max-length",
+       .value = "LENGTH",
+       .help = "Longer lengths are lowered to this one",
+       .take = cli::into(command.options.longest, {.least = 0, .most = kMost, .above = true})},
+      {.name = "threshold",
+       .value = "FACTOR",
+       .help = "Without --only: where edges are not longer than wanted, and shorter by less than this factor, what is "
+               "there stays; 1: all is made anew",
+       .standard = "1.2",
+       .take = cli::into(command.threshold, {1, kMost})},
+      {.name = "gradation",
+       .value = "GROWTH",
+       .help = "Lengths grow by at most this much per unit of distance; 0: no limit",
+       .standard = "0.2",
+       .take = cli::into(command.options.gradation, {0, kMost})},
+      {.name = "max-triangles",
+       .value = "COUNT",
+       .help = "Stop if what is made anew would have more triangles",
+       .take = cli::into(command.options.most_triangles, {.least = 0, .most = kMost, .above = true})},
+      {.kind = cli::Option::Kind::kFlag,
+       .name = "quiet",
+       .help = "Print no summary and no progress",
+       .take = cli::into(command.quiet)},
+      allow_outside_option(command.reading)};
 }
 
 }  // namespace
@@ -310,8 +358,11 @@ cli::Command adapt_command() {
   return {.name = "adapt",
           .summary = "Refine and coarsen a mesh from a file, or a part of it",
           .options = adapt_options(*command),
-          .notes = "The outline, markers, regions and names are those of the mesh. What point data it has comes along.",
-          .examples = {"driftmesh adapt flow.vtu --lengths h -o next.vtu"},
+          .notes =
+              "The outline, markers, regions and names are those of the mesh, unless --outline gives another one. "
+              "What point data it has comes along.",
+          .examples = {"driftmesh adapt flow.vtu --lengths h -o next.vtu",
+                       "driftmesh adapt port.vtu --outline new-pier.geojson --map numbers.csv -o next.vtu"},
           .exit_codes = "0 done, 1 error, 2 wrong usage, 3 stopped by a limit",
           .run = [command](cli::Call&) {
             run_adapt(*command);

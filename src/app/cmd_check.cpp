@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/number_map.hpp"
 #include "app/request_line.hpp"
 #include "app/run_files.hpp"
 #include "base/key_error.hpp"
@@ -34,6 +35,7 @@
 #include "mesh/settle_points.hpp"
 #include "sizing/across.hpp"
 #include "verify/report_text.hpp"
+#include "verify/stayed.hpp"
 #include "verify/verify.hpp"
 
 namespace driftmesh::app {
@@ -49,6 +51,8 @@ constexpr double kRounded = 1e-8, kSlack = 100 * kRounded;
 struct CheckOptions {
   std::string mesh;
   std::string input;
+  std::string against;
+  std::string map;
   VerifyOptions verify;
   Pslg given;  // the input before it is repaired, if needed
   std::unique_ptr<const SizeField> size;
@@ -178,7 +182,23 @@ VerifyReport read_and_verify(CheckOptions& options, const job::Request& request)
   return report;
 }
 
+/// Prints what of an older mesh stayed. Whether nothing contradicts.
+bool keeps_what_was(const CheckOptions& options) {
+  if (options.against.empty()) return true;
+  std::optional<NumberMap> map;
+  if (!options.map.empty()) map = read_number_map(options.map);
+  const StayedReport report = compare_stayed(read_mesh(options.against, options.reading),
+                                             read_mesh(options.mesh, options.reading), map, options.verify.max_listed);
+  if (!options.quiet) print("against        " + options.against + "\n" + stayed_text(report, map.has_value()));
+  if (report.contradictions > 0)
+    print(fmt::format("rejected: contradicts what {} has{} ({})\n", options.against, map ? ", or its map" : "",
+                      report.contradictions));
+  return report.contradictions == 0;
+}
+
 int run_check(CheckOptions& options) {
+  if (options.against.empty() && !options.map.empty())
+    throw cli::UsageError("--map is for --against, which is not given");
   job::Request request;
   in_words_of_options(options.bounds, {}, [&] {
     options.bounds.apply(request);
@@ -189,9 +209,10 @@ int run_check(CheckOptions& options) {
   try {
     const VerifyReport report = read_and_verify(options, request);
     if (!options.quiet) print(report_text(report, options.verify));
-    print(verdict_text(report, options.verify) + "\n");
+    const bool keeps = keeps_what_was(options);
+    if (keeps || !report.accepted()) print(verdict_text(report, options.verify) + "\n");
     flush_standard_output();
-    return report.accepted() ? 0 : kRejected;
+    return keeps && report.accepted() ? 0 : kRejected;
   } catch (const Error& error) {
     std::cerr << "driftmesh: " << text_of(error).in(job::words_of(job::kCheck)) << '\n';
     return kUnreadable;
@@ -226,6 +247,17 @@ std::vector<cli::Option> check_options(CheckOptions& options) {
                "segments, markers, points and regions",
        .completes = cli::Option::Completes::kFile,
        .take = cli::into(options.input)},
+      {.name = "against",
+       .value = "OLD",
+       .help = "An older mesh of which this one is to have kept all that did not change; reports what stayed, and "
+               "rejects what contradicts: other boundary numbers, regions or data at triangles that stayed",
+       .completes = cli::Option::Completes::kFile,
+       .take = cli::into(options.against)},
+      {.name = "map",
+       .value = "FILE.csv",
+       .help = "The map from the numbers of --against that driftmesh adapt has written; each entry is checked",
+       .completes = cli::Option::Completes::kFile,
+       .take = cli::into(options.map)},
       {.name = "list",
        .value = "N",
        .help = "Number of findings of each kind to print",
@@ -263,7 +295,8 @@ cli::Command check_command() {
               "corners "
               "and centroid, and where they are asked for by an expression four times in each square of the domain's "
               "longer side over --size-resolution; there an edge may be 1.25 times what is asked for.",
-          .examples = {"driftmesh check bay.vtu bay.poly --angle 20 --area 5000"},
+          .examples = {"driftmesh check bay.vtu bay.poly --angle 20 --area 5000",
+                       "driftmesh check next.vtu new-pier.geojson --against port.vtu --map numbers.csv"},
           .exit_codes = "0 accepted, 1 rejected, 2 a file could not be read or written, or wrong usage",
           .run = [options](cli::Call&) { return run_check(*options); }};
 }

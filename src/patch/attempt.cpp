@@ -16,7 +16,8 @@ namespace driftmesh::patch {
 namespace {
 
 IdVector<RootId, bool> fixed_roots(const Triangulation& mesh, const Domain& domain) {
-  if (mesh.roots.size() != domain.fixed.size()) throw Error("the triangles to be made anew do not fit together");
+  if (mesh.roots.size() != domain.fixed.size())
+    throw Error("the triangles to be made anew do not fit together, or lines of the new outline cross those that stay");
   IdVector<RootId, bool> fixed(mesh.roots.size(), false);
   for (const RootId r : ids_of(mesh.roots)) fixed[r] = domain.fixed[to_index(r)];
   return fixed;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "geometry/triangle_geometry.hpp"
@@ -39,8 +40,15 @@ class Labels {
 
 class Builder {
  public:
-  Builder(const Part& part, const Extent& extent)
-      : part_(part), mesh_(part.mesh), extent_(extent), index_(part.mesh), core_(mesh_.points.size(), true) {
+  Builder(const Part& part, const Extent& extent, const OldPlaces& old)
+      : part_(part),
+        mesh_(part.mesh),
+        extent_(extent),
+        old_(old),
+        index_(part.mesh),
+        core_(mesh_.points.size(), true),
+        places_(mesh_.points),
+        held_(extent.held) {
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
       if (!extent.inside[t])
         for (const std::int32_t v : mesh_.triangles[t]) core_[to_index(v)] = false;
@@ -49,6 +57,7 @@ class Builder {
   Domain run() {
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
       if (extent_.taken[t]) add_borders(t);
+    for (const Piece& piece : extent_.pieces) add_piece(piece);
     fuse_chains();
     return domain();
   }
@@ -59,6 +68,7 @@ class Builder {
       const std::int32_t a = mesh_.triangles[t][(i + 1) % 3], b = mesh_.triangles[t][(i + 2) % 3];
       const std::int32_t other = part_.beyond[t][i], listed = index_.find(a, b);
       const bool shared = other >= 0 && extent_.taken[to_index(other)];
+      if (listed >= 0 && !extent_.gone.empty() && extent_.gone[to_index(listed)]) continue;
       if (shared && (std::cmp_less(other, t) || (listed < 0 && region(t) == region(to_index(other))))) continue;
       const std::int32_t right = shared ? labels_.of(region(to_index(other))) : kNone;
       borders_.push_back({a,
@@ -69,6 +79,38 @@ class Builder {
     }
   }
 
+  void add_piece(const Piece& piece) {
+    std::array<std::int32_t, 2> ends{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      ends[i] = end_of(piece.end[i]);
+      std::int32_t& marker = end_markers_[ends[i]];
+      if (marker == 0) marker = piece.end_marker[i];
+    }
+    const auto label = [&](const std::optional<double>& region) { return region ? labels_.of(*region) : kNone; };
+    if (ends[0] != ends[1])
+      borders_.push_back({ends[0], ends[1], {label(piece.left), label(piece.right)}, piece.marker, false});
+  }
+
+  /// The end of a piece is a point of the part, or one more.
+  std::int32_t end_of(const Point& p) {
+    if (const std::int32_t v = old_.point_at(p); v >= 0) {
+      if (end_markers_.try_emplace(v, 0).second) ends_.push_back(v);
+      return v;
+    }
+    const auto [at, is_new] = added_.try_emplace(std::pair(p.x, p.y), static_cast<std::int32_t>(places_.size()));
+    if (is_new) {
+      places_.push_back(p);
+      held_.push_back(true);
+      core_.push_back(false);
+      ends_.push_back(at->second);
+    }
+    return at->second;
+  }
+
+  [[nodiscard]] bool is_added(std::size_t v) const { return v >= mesh_.points.size(); }
+  [[nodiscard]] bool is_marked(std::size_t v) const {
+    return !is_added(v) && !mesh_.point_markers.empty() && mesh_.point_markers[v] != 0;
+  }
   [[nodiscard]] double region(std::size_t t) const { return mesh_.regions.empty() ? 0 : mesh_.regions[t]; }
 
   // ---- Chains in line ----
@@ -83,19 +125,19 @@ class Builder {
 
   /// The two borders at a point where they may become one, in line from the first to the second.
   [[nodiscard]] bool is_joint(std::int32_t v, const std::vector<std::size_t>& at) const {
-    if (!core_[to_index(v)] || extent_.held[to_index(v)] || at.size() != 2) return false;
+    if (!core_[to_index(v)] || held_[to_index(v)] || at.size() != 2) return false;
     const Border in = borders_[at[0]].from(v).turned(), out = borders_[at[1]].from(v);
     if (in.marker != out.marker || in.sides.left != out.sides.left || in.sides.right != out.sides.right) return false;
     if (!mesh_.point_markers.empty() && mesh_.point_markers[to_index(v)] != in.marker) return false;
-    return in_line(mesh_.points[to_index(in.a)], mesh_.points[to_index(v)], mesh_.points[to_index(out.b)]);
+    return in_line(places_[to_index(in.a)], places_[to_index(v)], places_[to_index(out.b)]);
   }
 
   void fuse_chains() {
-    std::vector<std::vector<std::size_t>> at(mesh_.points.size());
+    std::vector<std::vector<std::size_t>> at(places_.size());
     for (std::size_t i = 0; i < borders_.size(); ++i)
       for (const std::int32_t v : {borders_[i].a, borders_[i].b}) at[to_index(v)].push_back(i);
-    on_border_.assign(mesh_.points.size(), false);
-    std::vector<bool> joint(mesh_.points.size(), false);
+    on_border_.assign(places_.size(), false);
+    std::vector<bool> joint(places_.size(), false);
     for (std::size_t v = 0; v < at.size(); ++v) {
       on_border_[v] = !at[v].empty();
       joint[v] = is_joint(static_cast<std::int32_t>(v), at[v]);
@@ -123,7 +165,7 @@ class Builder {
 
   void add_chain(const std::vector<std::size_t>& chain, const std::vector<std::int32_t>& points,
                  std::vector<Border>& fused) {
-    const auto place = [&](std::size_t i) { return mesh_.points[to_index(points[i])]; };
+    const auto place = [&](std::size_t i) { return places_[to_index(points[i])]; };
     bool straight = true;  // also as a whole
     for (std::size_t i = 1; i + 1 < points.size(); ++i)
       straight = straight && in_line(place(0), place(i), place(points.size() - 1));
@@ -141,24 +183,27 @@ class Builder {
   // ---- The result ----
 
   [[nodiscard]] bool stays(std::size_t v) const {
-    if (on_border_[v] || extent_.held[v]) return true;
-    return !core_[v] || (!mesh_.point_markers.empty() && mesh_.point_markers[v] != 0);
+    if (on_border_[v] || held_[v]) return true;
+    if (!extent_.dropped.empty() && extent_.dropped[v]) return false;
+    return !core_[v] || is_marked(v);
   }
 
   Domain domain() {
     Domain domain;
-    std::vector<bool> used(mesh_.points.size(), false);
+    std::vector<bool> used(places_.size(), false);
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
       if (extent_.taken[t])
         for (const std::int32_t v : mesh_.triangles[t]) used[to_index(v)] = true;
+    for (const std::int32_t v : ends_) used[to_index(v)] = true;
     for (const std::int32_t v : gone_) used[to_index(v)] = false;
-    std::vector<std::int32_t> number(mesh_.points.size(), kNone);
+    std::vector<std::int32_t> number(places_.size(), kNone);
     for (std::size_t v = 0; v < number.size(); ++v) {
       if (!used[v] || !stays(v)) continue;
       number[v] = static_cast<std::int32_t>(domain.pslg.points.size());
-      domain.pslg.points.push_back(mesh_.points[v]);
-      const bool marked = !mesh_.point_markers.empty() && mesh_.point_markers[v] != 0;
-      domain.free.push_back(!on_border_[v] && !extent_.held[v] && !marked);
+      domain.pslg.points.push_back(places_[v]);
+      const auto end = end_markers_.find(static_cast<std::int32_t>(v));
+      domain.pslg.point_markers.push_back(end == end_markers_.end() ? 0 : end->second);
+      domain.free.push_back(!on_border_[v] && !held_[v] && !is_marked(v));
     }
     for (const Border& border : borders_) {
       const std::int32_t a = number[to_index(border.a)], b = number[to_index(border.b)];
@@ -173,8 +218,14 @@ class Builder {
   const Part& part_;
   const Mesh& mesh_;
   const Extent& extent_;
+  const OldPlaces& old_;
   ConstrainedEdgeIndex index_;
-  std::vector<bool> core_;  // points all of whose triangles are inside
+  std::vector<bool> core_;     // points all of whose triangles are inside
+  std::vector<Point> places_;  // of the points of the part, and behind them of those that pieces add
+  std::vector<bool> held_;
+  std::map<std::pair<double, double>, std::int32_t> added_;
+  std::vector<std::int32_t> ends_;                    // of pieces
+  std::map<std::int32_t, std::int32_t> end_markers_;  // by their numbers
   Labels labels_;
   std::vector<Border> borders_;
   std::vector<bool> on_border_;     // points
@@ -183,8 +234,8 @@ class Builder {
 
 }  // namespace
 
-Domain domain_of(const Part& part, const Extent& extent) {
-  return Builder(part, extent).run();
+Domain domain_of(const Part& part, const Extent& extent, const OldPlaces& old) {
+  return Builder(part, extent, old).run();
 }
 
 }  // namespace driftmesh::patch

@@ -1,7 +1,9 @@
 #include "patch/part.hpp"
 
+#include <string>
 #include <utility>
 
+#include "driftmesh/error.hpp"
 #include "mesh/link_triangles.hpp"
 
 namespace driftmesh::patch {
@@ -34,6 +36,18 @@ Part part_of(const Mesh& mesh, std::vector<std::int32_t> triangles) {
   return part;
 }
 
+namespace {
+
+void link_or_refuse(Triangulation& made) {
+  try {
+    link_triangles(made);
+  } catch (const Error& error) {
+    throw Error(std::string(error.what()) + "; look for the place with driftmesh check");
+  }
+}
+
+}  // namespace
+
 Triangulation triangulation_of(const Mesh& mesh, const TriangleNeighbors& beyond) {
   Triangulation made;
   for (std::size_t v = 0; v < mesh.points.size(); ++v) made.add_vertex(mesh.points[v], static_cast<VertexOrigin>(v));
@@ -44,7 +58,7 @@ Triangulation triangulation_of(const Mesh& mesh, const TriangleNeighbors& beyond
     for (std::size_t i = 0; i < 3; ++i)
       if (beyond[t][i] < 0) made.add_root(VertexId{corners[(i + 1) % 3]}, VertexId{corners[(i + 2) % 3]}, 0, kNone);
   }
-  link_triangles(made);
+  link_or_refuse(made);
   return made;
 }
 

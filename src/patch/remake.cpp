@@ -10,6 +10,7 @@
 #include "adapt/conserve.hpp"
 #include "adapt/interpolate.hpp"
 #include "adapt/lineage.hpp"
+#include "adapt/locator.hpp"
 #include "distributed/ranks.hpp"
 #include "driftmesh/error.hpp"
 #include "geometry/predicates.hpp"
@@ -19,6 +20,7 @@
 #include "patch/lengths.hpp"
 #include "patch/neighborhood.hpp"
 #include "patch/old_places.hpp"
+#include "patch/outline_change.hpp"
 #include "patch/part.hpp"
 #include "patch/splice.hpp"
 
@@ -51,14 +53,6 @@ void require_counterclockwise(const Part& part) {
   }
 }
 
-Triangulation linked(const Mesh& mesh, const TriangleNeighbors& beyond) {
-  try {
-    return triangulation_of(mesh, beyond);
-  } catch (const Error& error) {
-    throw Error(std::string(error.what()) + "; look for the place with driftmesh check");
-  }
-}
-
 /// A mesh of a program that lists no edges has those of its boundary.
 void list_boundary(Mesh& mesh) {
   if (!mesh.edges.empty()) return;
@@ -66,6 +60,15 @@ void list_boundary(Mesh& mesh) {
   for (std::size_t t = 0; t < beyond.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i)
       if (beyond[t][i] < 0) mesh.edges.push_back({mesh.triangles[t][(i + 1) % 3], mesh.triangles[t][(i + 2) % 3], 0});
+}
+
+/// What a new outline changes about a part.
+void apply(const OutlineChange& change, const Part& part, const OldPlaces& old, Extent& extent) {
+  for (const std::int32_t e : part.edge) extent.gone.push_back(change.match.gone[to_index(e)]);
+  for (const std::int32_t v : part.point) extent.dropped.push_back(std::ranges::binary_search(change.dropped, v));
+  extent.pieces = change.match.pieces;
+  for (const Point& p : change.match.corners)
+    if (const std::int32_t v = old.point_at(p); v >= 0) extent.held[to_index(v)] = true;
 }
 
 Extent extent_of(const Mesh& mesh, const Part& part, const Neighborhood& taken, const std::vector<bool>& inside) {
@@ -134,7 +137,8 @@ void carry(std::vector<adapt::Field>& fields, const Part& part, const NewPart& m
            const Numbers& numbers) {
   if (fields.empty()) return;
   const adapt::Generation old_part = generation_of(part.mesh, std::move(before));
-  const adapt::Generation next_part = generation_of(made.mesh, linked(made.mesh, triangle_neighbors(made.mesh)));
+  const adapt::Generation next_part =
+      generation_of(made.mesh, triangulation_of(made.mesh, triangle_neighbors(made.mesh)));
   OneRank alone;
   const adapt::Lineage lineage(old_part, next_part, 1, alone);
   std::vector<std::vector<double>> old;
@@ -221,34 +225,71 @@ std::vector<std::int32_t> numbers_in_whole(const Part& part, std::vector<std::in
   return points;
 }
 
+/// The change of the outline, if there is one, and its triangles among those to be made anew.
+OutlineChange change_of(Mesh& mesh, const std::vector<adapt::Field>& fields, const Order& order,
+                        std::vector<bool>& inside) {
+  if (order.domain == nullptr) return {};
+  for (const adapt::Field& field : fields)
+    if (field.how == Transfer::kConserve)
+      throw Error("the integral of a field cannot stay where the domain becomes another one; interpolate the field");
+  const std::size_t listed = mesh.edges.size();
+  OutlineChange change = compare_outlines(mesh, *order.domain);
+  for (std::size_t t = 0; t < inside.size(); ++t) change.inside[t] = change.inside[t] || inside[t];
+  inside = change.inside;
+  if (std::ranges::find(inside, true) == inside.end()) mesh.edges.resize(listed);
+  return change;
+}
+
+/// New points where the old mesh was not.
+std::int64_t points_beyond(const Triangulation& before, const NewPart& made) {
+  const adapt::Locator locator(before);
+  std::int64_t count = 0;
+  for (std::size_t v = 0; v < made.old_point.size(); ++v)
+    if (made.old_point[v] < 0 && locator.locate(made.mesh.points[v]).beyond) ++count;
+  return count;
+}
+
 }  // namespace
 
 Remade remake(Mesh mesh, std::vector<adapt::Field> fields, const Order& order) {
   require_lengths(mesh, order.lengths);
-  if (std::ranges::find(order.inside, true) == order.inside.end()) return unchanged(std::move(mesh), std::move(fields));
+  std::vector<bool> inside = order.inside;
+  const OutlineChange change = change_of(mesh, fields, order, inside);
+  if (std::ranges::find(inside, true) == inside.end()) {
+    Remade same = unchanged(std::move(mesh), std::move(fields));
+    same.report.other_markers = change.other_markers;
+    return same;
+  }
   list_boundary(mesh);
   const double most = order.options.most_triangles;
-  Neighborhood taken(mesh, order.inside);
+  Neighborhood taken(mesh, inside);
   taken.grow(kLayers);
   for (int round = 0;; ++round) {
     const Part part = part_of(mesh, taken.with_rim());
     require_counterclockwise(part);
-    const Extent extent = extent_of(mesh, part, taken, order.inside);
-    Triangulation before = linked(part.mesh, part.beyond);
+    const OldPlaces old(part.mesh);
+    Extent extent = extent_of(mesh, part, taken, inside);
+    if (order.domain != nullptr) apply(change, part, old, extent);
+    Triangulation before = triangulation_of(part.mesh, part.beyond);
     const adapt::Lengths lengths = lengths_in(part, before, extent, order.lengths, order.options);
     const adapt::LinearLengths sizes(before, lengths);
-    const OldPlaces old(part.mesh);
     const Attempt made =
-        attempt(domain_of(part, extent), part, extent, old, {.min_angle = order.min_angle, .size = &sizes},
+        attempt(domain_of(part, extent, old), part, extent, old, {.min_angle = order.min_angle, .size = &sizes},
                 most > 0 ? static_cast<std::int64_t>(most) : kMostRefined);
     if (!made.tight.empty() && round < kMostRounds &&
         taken.grow_around(numbers_in_whole(part, made.tight), kLayers + round))
       continue;
     const NewPart next = new_part(made, part, extent, old);
     Remade remade;
+    remade.report = report_of(part, extent, next);
+    if (order.domain != nullptr) {
+      remade.report.gone_edges = std::ranges::count(change.match.gone, true);
+      remade.report.pieces = static_cast<std::int64_t>(change.match.pieces.size());
+      remade.report.other_markers = change.other_markers;
+      remade.report.beyond = points_beyond(before, next);
+    }
     const Numbers numbers = splice(mesh, part, extent, next);
     carry(fields, part, next, std::move(before), numbers);
-    remade.report = report_of(part, extent, next);
     remade.mesh = std::move(mesh);
     remade.fields = std::move(fields);
     remade.old_points = numbers.old_points;

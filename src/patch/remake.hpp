@@ -7,15 +7,17 @@
 #include "driftmesh/adaptive.hpp"
 #include "driftmesh/defaults.hpp"
 #include "driftmesh/mesh.hpp"
+#include "patch/new_outline.hpp"
 
 namespace driftmesh::patch {
 
 /// What is to be made anew.
 struct Order {
-  std::vector<bool> inside{};     ///< one for each triangle
+  std::vector<bool> inside{};     ///< one for each triangle; empty: none
   std::vector<double> lengths{};  ///< wanted, one for each point; empty: those that the triangles have
   AdaptiveOptions options{};      ///< for lengths; most_triangles: what is made anew has no more; 0: no limit
   double min_angle = defaults::kMinAngle;
+  const NewDomain* domain = nullptr;  ///< null: that of the mesh; else what differs is made anew, too
 };
 
 struct Report {
@@ -26,6 +28,12 @@ struct Report {
   double margin_width = 0;       ///< no point of these is farther from what was inside
   std::int64_t gone_points = 0;  ///< points that are no longer there
   std::int64_t new_points = 0;
+
+  // Only with a new domain:
+  std::int64_t gone_edges = 0;     ///< of the old outline that are not on the new one
+  std::int64_t pieces = 0;         ///< of the new outline that are not on the old one
+  std::int64_t beyond = 0;         ///< new points where the old mesh was not
+  std::int64_t other_markers = 0;  ///< edges that keep their markers although the new domain has others there
 };
 
 struct Remade {
@@ -40,7 +48,10 @@ struct Remade {
 /// beyond stays bit for bit: points, triangles with their corners in order, edges, markers, and numbers (see splice).
 /// The new triangles are Delaunay, also together with what stays. Fields are carried over; the mesh has no attributes
 /// of its own. Throws Error for triangles that are clockwise or do not fit together, for lengths that are not positive,
-/// and LimitError.
+/// for fields to be conserved in another domain, and LimitError.
+///
+/// With a new domain, what is to be made anew is all that compare_outlines finds. Where the new domain is beyond the
+/// old mesh, lengths and fields are those at the nearest place of it that is taken. Edges that stay keep their markers.
 [[nodiscard]] Remade remake(Mesh mesh, std::vector<adapt::Field> fields, const Order& order);
 
 }  // namespace driftmesh::patch

@@ -39,9 +39,10 @@ class Maker {
       if (made_.mesh.origin[v] == kDeleted) continue;
       const std::int32_t old = old_.point_at(made_.mesh.points[v]);
       number_[v] = static_cast<std::int32_t>(new_.mesh.points.size());
-      const bool known = old >= 0 && has_markers();
-      add_point(old < 0 ? made_.mesh.points[v] : part_.mesh.points[to_index(old)], old,
-                known ? part_.mesh.point_markers[to_index(old)] : 0);
+      const VertexOrigin origin = made_.mesh.origin[v];
+      std::int32_t marker = old >= 0 && has_markers() ? part_.mesh.point_markers[to_index(old)] : 0;
+      if (marker == 0 && is_input(origin)) marker = made_.domain.pslg.point_markers[to_index(origin)];
+      add_point(old < 0 ? made_.mesh.points[v] : part_.mesh.points[to_index(old)], old, marker);
     }
   }
 
@@ -177,21 +178,20 @@ class Splicing {
 
  private:
   void number_points() {
-    std::vector<bool> gone(part_.point.size(), false);
+    gone_points_.assign(part_.point.size(), false);
     for (std::size_t t = 0; t < part_.mesh.triangles.size(); ++t)
       if (extent_.taken[t])
-        for (const std::int32_t v : part_.mesh.triangles[t]) gone[to_index(v)] = true;
+        for (const std::int32_t v : part_.mesh.triangles[t]) gone_points_[to_index(v)] = true;
     for (const std::int32_t old : made_.old_point)
-      if (old >= 0) gone[to_index(old)] = false;
-    for (std::size_t v = 0; v < gone.size(); ++v)
-      if (gone[v]) points_.free(part_.point[v]);
+      if (old >= 0) gone_points_[to_index(old)] = false;
+    for (std::size_t v = 0; v < gone_points_.size(); ++v)
+      if (gone_points_[v]) points_.free(part_.point[v]);
     for (std::size_t v = 0; v < made_.old_point.size(); ++v) {
       const std::int32_t old = made_.old_point[v];
       const std::int32_t number = old >= 0 ? part_.point[to_index(old)] : points_.take();
       numbers_.points.push_back(number);
-      if (old >= 0) continue;
-      put(mesh_.points, number, made_.mesh.points[v]);
       if (!mesh_.point_markers.empty()) put(mesh_.point_markers, number, made_.mesh.point_markers[v]);
+      if (old < 0) put(mesh_.points, number, made_.mesh.points[v]);
     }
   }
 
@@ -234,8 +234,16 @@ class Splicing {
     std::vector<std::int32_t> gone;
     for (std::size_t e = 0; e < taken.size(); ++e) {
       if (!taken[e]) continue;
-      const Mesh::Edge& edge = mesh_.edges[to_index(part_.edge[e])];
-      if (open.erase({std::min(edge.a, edge.b), std::max(edge.a, edge.b)}) == 0) gone.push_back(part_.edge[e]);
+      Mesh::Edge& edge = mesh_.edges[to_index(part_.edge[e])];
+      const Mesh::Edge& own = part_.mesh.edges[e];
+      const auto found = open.find({std::min(edge.a, edge.b), std::max(edge.a, edge.b)});
+      // Other points may have the numbers of those that are gone.
+      if (found == open.end() || gone_points_[to_index(own.a)] || gone_points_[to_index(own.b)]) {
+        gone.push_back(part_.edge[e]);
+      } else {
+        edge.marker = found->second->marker;
+        open.erase(found);
+      }
     }
     std::size_t used = 0;
     for (const Mesh::Edge& edge : made_.mesh.edges) {
@@ -306,6 +314,7 @@ class Splicing {
   Numbering points_{mesh_.points.size()}, triangles_{mesh_.triangles.size()};
   // Edges between subdomains need not be Delaunay. What is made anew is one of its own.
   std::int32_t own_subdomain_ = mesh_.subdomains.empty() ? 0 : 1 + *std::ranges::max_element(mesh_.subdomains);
+  std::vector<bool> gone_points_;  // of the part
   std::map<std::int32_t, std::int32_t> moved_points_, moved_triangles_;
   Numbers numbers_;
 };

@@ -133,6 +133,43 @@ class Whole(Adapt):
         self.assertGreater(lowered, default)
 
 
+class Keep(Adapt):
+    """What is as lengths want it stays."""
+
+    def uniform(self, size, **data):
+        self.write("domain.poly", SQUARE)
+        self.succeed("mesh", "domain.poly", "--size", size, "-o", "first.vtu")
+        points, triangles, _ = self.read("first.vtu")
+        self.write("old.vtu", as_vtu(points, triangles, {key: [f(*p) for p in points] for key, f in data.items()}))
+        return points, triangles
+
+    def test_a_mesh_that_meets_its_lengths_stays(self):
+        old = self.uniform(0.2, h=lambda x, y: 0.2)
+        out = self.succeed("adapt", "old.vtu", "--lengths", "h", "-o", "new.vtu", "--map", "map.csv")
+        self.assertIn(f"kept           {len(old[1])} triangles; 0 were too large, 0 too dense, 0 below", out)
+        self.assertEqual(self.read("new.vtu")[:2], old)
+        self.assertEqual((self.folder / "map.csv").read_text(), "kind,new,old\n")
+
+    def test_only_where_lengths_change(self):
+        for corner, wanted in [(0.05, 1), (0.6, 1.3)]:
+            old = self.uniform(0.1, h=lambda x, y: corner if x + y < 1.5 else 0.1)
+            out = self.succeed("adapt", "old.vtu", "--lengths", "h", "--gradation", 0, "-o", "new.vtu")
+            kept = int(out.split("kept")[1].split()[0])
+            self.succeed("check", "new.vtu", "--angle", 20, "--against", "old.vtu")
+            _, moved = self.assert_beyond_stays(old, self.read("new.vtu"), lambda x, y: x + y < 3)
+            if corner < 0.1:
+                self.assertEqual(moved, [])
+            self.assertGreater(kept, 0.6 * len(old[1]))
+            self.assertLess(kept, 0.95 * len(old[1]))
+
+    def test_triangles_that_fail_are_made_anew(self):
+        points = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0), (2.0, 0.2)]
+        self.write("bad.vtu", as_vtu(points, [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)], {}))
+        out = self.succeed("adapt", "bad.vtu", "--max-length", 10, "-o", "new.vtu")
+        self.succeed("check", "new.vtu", "--angle", 20)
+        self.assertIn("kept           0 triangles; 0 were too large, 0 too dense", out)
+
+
 class Part(Adapt):
     def test_only_a_box_changes(self):
         old = self.mesh("foreign.vtu", size=0.1)

@@ -1,0 +1,27 @@
+#include "patch/point_data.hpp"
+
+#include <utility>
+
+namespace driftmesh::patch {
+
+std::vector<NamedField> take_point_data(Mesh& mesh) {
+  std::vector<NamedField> fields;
+  const auto width = static_cast<std::size_t>(mesh.attributes_per_point);
+  for (std::size_t k = 0; k < width; ++k) {
+    NamedField named{
+        mesh.attribute_names.empty() ? "attribute" + (width > 1 ? std::to_string(k) : "") : mesh.attribute_names[k],
+        {}};
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) named.field.values.push_back(mesh.attributes[v * width + k]);
+    fields.push_back(std::move(named));
+  }
+  mesh.attributes.clear();
+  return fields;
+}
+
+void give_point_data(Mesh& mesh, const std::vector<adapt::Field>& fields) {
+  mesh.attributes.resize(mesh.points.size() * fields.size());
+  for (std::size_t k = 0; k < fields.size(); ++k)
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) mesh.attributes[v * fields.size() + k] = fields[k].values[v];
+}
+
+}  // namespace driftmesh::patch
