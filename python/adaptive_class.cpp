@@ -62,7 +62,10 @@ void add_adaptive_class(py::module_& module) {
           [](Adaptive& self) {
             return self.present([](const AdaptiveMesh& mesh) { return py::cast(Mesh(mesh.mesh())); });
           },
-          "The present Mesh. Those of older generations stay valid.");
+          "The present Mesh. Those of older generations stay valid.")
+      .def_property_readonly(
+          "old_mesh", [](const Adaptive& self) { return Mesh(self.at_rest().old_mesh()); },
+          "The Mesh before the last adapt(), if keep_old() was called before it.");
   add_adaptive_methods(adaptive);
 }
 

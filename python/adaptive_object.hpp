@@ -99,7 +99,7 @@ class AdaptiveObject {
     trailing_.erase(name);
   }
 
-  /// A copy.
+  /// A copy, which nobody should take for the field itself.
   [[nodiscard]] py::array field(const std::string& name) {
     require_rest();
     const std::span<const double> values = mesh_.field(name);
@@ -111,7 +111,9 @@ class AdaptiveObject {
       if (place == FieldPlace::kCorners) shape.push_back(3);
       shape.push_back(-1);
     }
-    return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data()).reshape(shape);
+    py::array copy = py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data()).reshape(shape);
+    copy.attr("setflags")(py::arg("write") = false);
+    return copy;
   }
 
   [[nodiscard]] std::vector<std::string> fields() const {
@@ -259,8 +261,14 @@ void add_adaptive_methods(py::class_<Object>& adaptive) {
            "'triangles', (triangles, 3, ...) where it is 'corners'. 'conserve' keeps its integral; at triangles and\n"
            "corners there is no other way.")
       .def("detach", &Object::detach, py::arg("name"), "Forget a field.")
-      .def("field", &Object::field, py::arg("name"), "The values of a field on the present mesh, a copy.")
+      .def("field", &Object::field, py::arg("name"),
+           "field(name) -> array\n\n"
+           "The values of a field on the present mesh, a read-only copy; attach() changes them.")
       .def_property_readonly("fields", &Object::fields, "The names of all fields.")
+      .def(
+          "keep_old", [](Object& self, bool keep) { self.at_rest().keep_old(keep); }, py::arg("keep") = true,
+          "keep_old(keep=True) -> None\n\n"
+          "Whether adapt() keeps the mesh that it replaces, from the next call on, for what you transfer yourself.")
       .def("save", &Object::save, py::arg("path"),
            "save(path) -> None\n\n"
            "Write the mesh, its subdomains and fields into one HDF5 file, from which load() goes on.")

@@ -6,6 +6,7 @@ namespace driftmesh::python {
 
 // The classes and functions of the module, by their files.
 void add_adaptive_class(pybind11::module_& module);
+void add_adapt_part(pybind11::module_& module);
 void add_mesh_classes(pybind11::module_& module);
 void add_report_class(pybind11::module_& module);
 void add_load_class(pybind11::module_& module);

@@ -14,6 +14,7 @@ PYBIND11_MODULE(_native, module) {
   driftmesh::python::add_triangle_call(module);
   driftmesh::python::add_size_class(module);
   driftmesh::python::add_adaptive_class(module);
+  driftmesh::python::add_adapt_part(module);
   driftmesh::python::add_decomposition_class(module);
   driftmesh::python::add_plot(module);
   driftmesh::python::add_load_class(module);

@@ -145,6 +145,12 @@ class AdaptiveMesh {
   [[nodiscard]] const std::vector<std::int32_t>& stayed_triangles() const;
   [[nodiscard]] const AdaptReport& report() const;
 
+  /// Whether adapt() keeps the mesh that it replaces, from the next call on, for what a caller wants to transfer
+  /// itself. It takes its memory until the next call, or keep_old(false).
+  void keep_old(bool keep = true);
+  /// The mesh before the last call of adapt(), valid until the next one. Throws Error if it was not kept.
+  [[nodiscard]] const Mesh& old_mesh() const;
+
  private:
   struct Impl;
   explicit AdaptiveMesh(std::unique_ptr<Impl> impl);

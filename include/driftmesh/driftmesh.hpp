@@ -8,6 +8,7 @@
 /// driftmesh::write_mesh(mesh, "bay.vtu");
 /// \endcode
 
+#include "driftmesh/adapt_part.hpp"
 #include "driftmesh/adaptive.hpp"
 #include "driftmesh/check.hpp"
 #include "driftmesh/close_channels.hpp"

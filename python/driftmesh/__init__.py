@@ -17,8 +17,9 @@ import tempfile as _tempfile
 
 from . import _conversions
 from ._errors import Cancelled, Error, FileError, InputError, InputWarning, LimitError
-from ._native import (AdaptiveMesh, CheckReport, Decomposition, Load, Mesh, Progress, Pslg, SizeField, SizeRule, __version__, check, cut_domain, generate,
-                      generator_names, mesh, option_table, outline, plot, read_decomposition, read_input, read_mesh, read_poly, size_on_mesh)
+from ._native import (AdaptedMesh, AdaptiveMesh, CheckReport, Decomposition, Load, Mesh, Progress, Pslg, SizeField, SizeRule, __version__,
+                      adapt_outline, adapt_part, check, cut_domain, generate, generator_names, mesh, option_table, outline, plot, read_decomposition,
+                      read_input, read_mesh, read_poly, size_on_mesh)
 from ._native import holds_input as _holds_input
 from ._polygons import from_polygons
 from ._progress import ProgressLine
@@ -26,10 +27,10 @@ from ._progress import ProgressLine
 # What needs MPI is a module of its own, loaded when one of these is first asked for; a package that was built without MPI lacks it.
 _OF_RANKS = ["DistributedAdaptiveMesh", "DistributedPiece", "GhostedPiece", "SimulatedRun", "add_ghost_layer", "mesh_distributed", "simulate", "write_distributed"]
 
-__all__ = ["AdaptiveMesh", "Cancelled", "CheckReport", "Decomposition", "Error", "FileError", "InputError", "InputWarning", "LimitError", "Load",
-           "Mesh", "Progress", "ProgressLine", "Pslg", "SizeField", "SizeRule", "__version__", "check", "convert", "cut_domain", "from_polygons", "generate",
-           "generator_names", "mesh", "option_table", "outline", "plot", "read", "read_decomposition", "read_input", "read_mesh",
-           "read_poly", "size_on_mesh", "to_meshio"]
+__all__ = ["AdaptedMesh", "AdaptiveMesh", "Cancelled", "CheckReport", "Decomposition", "Error", "FileError", "InputError", "InputWarning",
+           "LimitError", "Load", "Mesh", "Progress", "ProgressLine", "Pslg", "SizeField", "SizeRule", "__version__", "adapt_outline", "adapt_part",
+           "check", "convert", "cut_domain", "from_polygons", "generate", "generator_names", "mesh", "option_table", "outline", "plot", "read",
+           "read_decomposition", "read_input", "read_mesh", "read_poly", "size_on_mesh", "to_meshio"]
 if _importlib_util.find_spec("._ranks", __name__):
     __all__ += _OF_RANKS
 

@@ -71,7 +71,8 @@ void add_adaptive_on_ranks(py::module_& module) {
       "most_triangles=0, **options)\n\n"
       "An AdaptiveMesh on all ranks of an mpi4py communicator, each of which holds a piece: the same mesh and fields, "
       "bit\n"
-      "for bit, on any number of ranks. All but properties, field() and spent() is collective. The input is that of\n"
+      "for bit, on any number of ranks. All but properties, field(), spent() and keep_old() is collective. The input "
+      "is that of\n"
       "rank 0, and may be None elsewhere; options must be the same on all ranks.");
   adaptive
       .def(py::init(&make_adaptive), py::arg("communicator"), py::arg("input"), py::pos_only(), py::kw_only(),
@@ -90,6 +91,9 @@ void add_adaptive_on_ranks(py::module_& module) {
                 [](const DistributedAdaptiveMesh& mesh) { return py::cast(DistributedPiece(mesh.piece())); });
           },
           "The present DistributedPiece of this rank. Those of older generations stay valid.")
+      .def_property_readonly(
+          "old_piece", [](const Adaptive& self) { return DistributedPiece(self.at_rest().old_piece()); },
+          "The DistributedPiece of this rank before the last adapt(), if keep_old() was called before it.")
       .def("spent", &note_spent, py::arg("seconds"), py::pos_only(),
            "spent(seconds, /) -> None\n\n"
            "Tell how long this rank has worked on the present mesh, or each of its subdomains, in the order of their\n"

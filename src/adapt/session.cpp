@@ -202,6 +202,8 @@ void Session::advance(const std::function<Wanted()>& want, const Means& means, c
   Holding made = placed({std::move(next), std::move(fields), std::move(points), std::move(triangles)}, means, report);
   report.balance = stage.seconds();
 
+  old_.reset();
+  if (keeps_old_) old_ = std::move(present_.piece);
   present_ = std::move(made.generation);
   stayed_points_ = std::move(made.stayed_points);
   stayed_triangles_ = std::move(made.stayed_triangles);
@@ -209,6 +211,16 @@ void Session::advance(const std::function<Wanted()>& want, const Means& means, c
   spent_ = {};
   report.seconds = all.seconds();
   report_ = report;
+}
+
+void Session::keep_old(bool keep) {
+  keeps_old_ = keep;
+  if (!keep) old_.reset();
+}
+
+const DistributedPiece& Session::old_piece() const {
+  if (!old_) throw Error("there is no old mesh; call keep_old() before adapt()");
+  return *old_;
 }
 
 /// On other ranks where that makes up for an imbalance.

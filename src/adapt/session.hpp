@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -66,6 +67,11 @@ class Session {
   [[nodiscard]] std::span<double> field(const std::string& name);
   [[nodiscard]] const Fields& fields() const { return fields_; }
 
+  /// Whether the piece before each call of adapt() is kept, from the next one on. Not collective.
+  void keep_old(bool keep);
+  /// The piece before the last call. Throws Error if it was not kept.
+  [[nodiscard]] const DistributedPiece& old_piece() const;
+
   /// See adapt::save. `more`: what only the caller knows.
   void save(const std::string& path, Bytes more, const Means& means);
 
@@ -93,6 +99,8 @@ class Session {
   std::vector<std::int32_t> stayed_points_, stayed_triangles_;
   Fields fields_;
   Spent spent_;  // on the present mesh
+  bool keeps_old_ = false;
+  std::optional<DistributedPiece> old_;
 };
 
 }  // namespace driftmesh::adapt

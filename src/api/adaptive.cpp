@@ -98,6 +98,14 @@ const std::vector<std::int32_t>& AdaptiveMesh::stayed_triangles() const {
   return impl_->core.session().stayed_triangles();
 }
 
+void AdaptiveMesh::keep_old(bool keep) {
+  impl_->core.session().keep_old(keep);
+}
+
+const Mesh& AdaptiveMesh::old_mesh() const {
+  return impl_->core.session().old_piece().mesh;
+}
+
 const AdaptReport& AdaptiveMesh::report() const {
   return impl_->core.session().report();
 }

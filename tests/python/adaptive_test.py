@@ -36,6 +36,29 @@ class Adaptive(unittest.TestCase):
             self.assertEqual(len(plate.stayed_triangles), len(mesh.triangles))
         self.assertEqual(plate.report["generation"], 3)
 
+    def test_the_old_mesh_is_kept_on_request(self):
+        plate = driftmesh.AdaptiveMesh(PLATE, max_area=0.01)
+        plate.adapt(front(plate.mesh, 0.2))
+        with self.assertRaisesRegex(driftmesh.Error, "keep_old"):
+            plate.old_mesh
+        plate.keep_old()
+        for at in (0.3, 0.5):
+            before = plate.mesh
+            plate.adapt(front(before, at))
+            np.testing.assert_array_equal(plate.old_mesh.points, before.points)
+            np.testing.assert_array_equal(plate.old_mesh.triangles, before.triangles)
+        plate.keep_old(False)
+        with self.assertRaisesRegex(driftmesh.Error, "keep_old"):
+            plate.old_mesh
+
+    def test_a_copy_of_a_field_cannot_be_taken_for_the_field(self):
+        plate = driftmesh.AdaptiveMesh(PLATE, max_area=0.01)
+        plate.attach("u", np.zeros(len(plate.mesh.points)))
+        with self.assertRaisesRegex(ValueError, "read-only"):
+            plate.field("u")[0] = 1
+        plate.attach("u", plate.field("u") + 1)
+        self.assertEqual(plate.field("u")[0], 1)
+
     def test_follows_functions(self):
         plate = driftmesh.AdaptiveMesh(PLATE, size_resolution=100)
         size = lambda x, y: 0.02 + 0.2 * abs(y - 0.5)

@@ -230,8 +230,12 @@ class Adaptive(unittest.TestCase):
         for radius in (5, 8):
             alone.adapt(self.ring(alone.mesh, radius))
             flow.spent(1.0 + WORLD.rank)
+            flow.keep_old()
+            before = flow.piece
             flow.adapt(self.ring(flow.piece.mesh, radius))
             self.check_as_alone(flow, alone)
+            np.testing.assert_array_equal(flow.old_piece.mesh.points, before.mesh.points)
+            np.testing.assert_array_equal(flow.old_piece.mesh.triangles, before.mesh.triangles)
         self.assertEqual(flow.report["generation"], 2)
         self.assertEqual(flow.fields, ["mass", "u"])
         with tempfile.TemporaryDirectory() as folder:

@@ -174,6 +174,14 @@ const std::vector<std::int32_t>& DistributedAdaptiveMesh::stayed_triangles() con
   return impl_->core.session().stayed_triangles();
 }
 
+void DistributedAdaptiveMesh::keep_old(bool keep) {
+  impl_->core.session().keep_old(keep);
+}
+
+const DistributedPiece& DistributedAdaptiveMesh::old_piece() const {
+  return impl_->core.session().old_piece();
+}
+
 const AdaptReport& DistributedAdaptiveMesh::report() const {
   return impl_->core.session().report();
 }

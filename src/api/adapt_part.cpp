@@ -1,0 +1,83 @@
+#include "driftmesh/adapt_part.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "driftmesh/error.hpp"
+#include "driftmesh/repair.hpp"
+#include "mesh/bounds.hpp"
+#include "patch/point_data.hpp"
+#include "patch/remake.hpp"
+
+namespace driftmesh {
+namespace {
+
+void require_in_range(const PartOptions& options) {
+  const auto require = [](bool sound, const std::string& name, double value, const std::string& rule) {
+    if (!sound) throw Error("PartOptions::" + name + " is " + std::to_string(value) + "; it must be " + rule);
+  };
+  const AdaptiveOptions& sizes = options.sizes;
+  require(sizes.shortest >= 0, "sizes.shortest", sizes.shortest, "at least 0");
+  require(sizes.longest > 0 && sizes.longest >= sizes.shortest, "sizes.longest", sizes.longest,
+          "positive, and not below shortest");
+  require(sizes.gradation >= 0, "sizes.gradation", sizes.gradation, "at least 0");
+  require(sizes.most_triangles >= 0, "sizes.most_triangles", sizes.most_triangles, "at least 0");
+  require(options.min_angle >= 0 && options.min_angle <= kMaxAngle, "min_angle", options.min_angle,
+          "from 0 to " + std::to_string(kMaxAngle) + " degrees");
+  require(options.tolerance >= 0, "tolerance", options.tolerance, "at least 0");
+}
+
+std::vector<adapt::Field> fields_of(Mesh& mesh, const std::vector<std::string>& conserve) {
+  std::vector<patch::NamedField> named = patch::take_point_data(mesh);
+  for (const std::string& name : conserve) {
+    const auto found = std::ranges::find(named, name, &patch::NamedField::name);
+    if (found == named.end())
+      throw Error("the mesh has no point data '" + name + "', which PartOptions::conserve names");
+    found->field.how = Transfer::kConserve;
+  }
+  std::vector<adapt::Field> fields;
+  for (patch::NamedField& field : named) fields.push_back(std::move(field.field));
+  return fields;
+}
+
+AdaptedMesh adapted(Mesh mesh, patch::Order order, const PartOptions& options) {
+  order.lengths = options.lengths;
+  order.options = options.sizes;
+  order.min_angle = options.min_angle;
+  std::vector<adapt::Field> fields = fields_of(mesh, options.conserve);
+  patch::Remade remade = patch::remake(std::move(mesh), std::move(fields), order);
+  patch::give_point_data(remade.mesh, remade.fields);
+  return {.mesh = std::move(remade.mesh),
+          .old_points = std::move(remade.old_points),
+          .old_triangles = std::move(remade.old_triangles),
+          .margin = remade.report.margin,
+          .margin_width = remade.report.margin_width,
+          .beyond = remade.report.beyond};
+}
+
+}  // namespace
+
+AdaptedMesh adapt_part(Mesh mesh, std::span<const std::int32_t> triangles, const PartOptions& options) {
+  require_in_range(options);
+  patch::Order order{.inside = std::vector<bool>(mesh.triangles.size(), false)};
+  for (const std::int32_t t : triangles) {
+    if (t < 0 || std::cmp_greater_equal(t, mesh.triangles.size()))
+      throw Error("there is no triangle " + std::to_string(t) + "; the mesh has " +
+                  std::to_string(mesh.triangles.size()) + ", counted from 0");
+    order.inside[static_cast<std::size_t>(t)] = true;
+  }
+  return adapted(std::move(mesh), std::move(order), options);
+}
+
+AdaptedMesh adapt_outline(Mesh mesh, const Pslg& domain, const PartOptions& options) {
+  require_in_range(options);
+  patch::NewDomain now{domain, options.tolerance, "domain"};
+  repair(now.pslg, now.name);
+  if (now.tolerance == 0) now.tolerance = patch::rounding_of_midpoints(mesh.points);
+  patch::adopt_names(now.pslg, mesh);
+  patch::Order order;
+  order.domain = &now;
+  return adapted(std::move(mesh), std::move(order), options);
+}
+
+}  // namespace driftmesh

@@ -1,0 +1,134 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "driftmesh/driftmesh.hpp"
+#include "support/error_text.hpp"
+
+// Parts of finished meshes that are made anew, other outlines of them, and old meshes of adaptive ones.
+
+using namespace driftmesh;
+using namespace driftmesh::testing;
+
+namespace {
+
+Pslg port(double corner) {
+  Pslg pslg;
+  pslg.points = {{0, 0}, {4, 0}, {4, 2}, {corner, 3}, {0, 3}};
+  pslg.segments = {{0, 1, 1}, {1, 2, 2}, {2, 3, 3}, {3, 4, 4}, {4, 0, 5}};
+  return pslg;
+}
+
+/// How many triangles have their numbers, and corners, by old numbers.
+std::ptrdiff_t stayed(const Mesh& before, const AdaptedMesh& after) {
+  std::ptrdiff_t count = 0;
+  for (std::size_t t = 0; t < after.old_triangles.size(); ++t) {
+    const std::int32_t old = after.old_triangles[t];
+    if (old < 0) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto v = static_cast<std::size_t>(after.mesh.triangles[t][i]);
+      const std::int32_t old_corner = before.triangles[static_cast<std::size_t>(old)][i];
+      CHECK(after.old_points[v] == old_corner);
+      CHECK(after.mesh.points[v] == before.points[static_cast<std::size_t>(old_corner)]);
+    }
+    ++count;
+  }
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("another outline leaves what it does not concern, and back again") {
+  const Mesh before = mesh(port(3), {.max_area = 0.005});
+  const AdaptedMesh after = adapt_outline(before, port(3.5));
+  CHECK(check(after.mesh, port(3.5)).accepted);
+  CHECK(2 * stayed(before, after) > std::ssize(before.triangles));
+  CHECK(after.beyond > 0);
+  const AdaptedMesh again = adapt_outline(after.mesh, port(3));
+  CHECK(check(again.mesh, port(3)).accepted);
+  CHECK(again.beyond == 0);
+  const AdaptedMesh same = adapt_outline(before, port(3));
+  CHECK(same.mesh.points == before.points);
+  CHECK(same.mesh.triangles == before.triangles);
+  CHECK(same.mesh.edges == before.edges);
+}
+
+TEST_CASE("markers are numbered by their names where an outline has others") {
+  Pslg named = port(3);
+  named.names.markers = {{1, "quay"}, {2, "sea"}};
+  const Mesh before = mesh(named, {.max_area = 0.02});
+  Pslg next = port(3.5);
+  for (Pslg::Segment& segment : next.segments) segment.marker = segment.marker == 3 ? 1 : 7;
+  next.names.markers = {{1, "wall"}, {7, "sea"}};
+  const AdaptedMesh after = adapt_outline(before, next);
+  // What is new is wall, whose number is in use, and what was at 4 to 0 is there already.
+  std::int32_t wall = 0;
+  for (const auto& [marker, name] : after.mesh.names.markers)
+    if (name == "wall") wall = marker;
+  CHECK(wall > 5);
+  CHECK(after.mesh.names.markers.at(1) == "quay");
+  CHECK(after.mesh.names.markers.at(2) == "sea");
+  CHECK(after.mesh.names.markers.size() == 3);
+  for (const Mesh::Edge& edge : after.mesh.edges) {
+    const Point &a = after.mesh.points[static_cast<std::size_t>(edge.a)],
+                &b = after.mesh.points[static_cast<std::size_t>(edge.b)];
+    CHECK((edge.marker == wall) == (a.x + b.x > 7 && a.y + b.y > 4));
+    CHECK((edge.marker == 2) == ((a.x == 4 && b.x == 4) || (a.y == 3 && b.y == 3 && a.x + b.x > 6)));
+  }
+}
+
+TEST_CASE("a part, with lengths and point data") {
+  Mesh before = mesh(port(3), {.max_area = 0.01});
+  before.attributes_per_point = 1;
+  before.attribute_names = {"depth"};
+  before.attributes.clear();
+  for (const Point& p : before.points) before.attributes.push_back(2 * p.x - p.y);
+  std::vector<std::int32_t> part;
+  for (std::size_t t = 0; t < before.triangles.size(); ++t)
+    if (before.points[static_cast<std::size_t>(before.triangles[t][0])].x < 1)
+      part.push_back(static_cast<std::int32_t>(t));
+  PartOptions options{.sizes = {.longest = 0.05}};
+  const AdaptedMesh after = adapt_part(before, part, options);
+  CHECK(check(after.mesh, port(3)).accepted);
+  CHECK(stayed(before, after) > 0);
+  for (std::size_t v = 0; v < after.mesh.points.size(); ++v)
+    CHECK(after.mesh.attributes[v] ==
+          doctest::Approx(2 * after.mesh.points[v].x - after.mesh.points[v].y).epsilon(1e-12));
+  options.conserve = {"depth"};
+  CHECK(adapt_part(before, part, options).mesh.triangles == after.mesh.triangles);
+  CHECK(error_text([&] { (void)adapt_outline(before, port(3.5), options); }).find("interpolate") != std::string::npos);
+  options.conserve = {"heat"};
+  CHECK(error_text([&] { (void)adapt_part(before, part, options); }).find("'heat'") != std::string::npos);
+  CHECK(error_text([&] { (void)adapt_part(before, std::vector{-1}); }).find("no triangle -1") != std::string::npos);
+  CHECK(error_text([&] { (void)adapt_part(before, part, {.tolerance = -1}); }).find("tolerance") != std::string::npos);
+}
+
+TEST_CASE("a weir stays where it is, or is an error") {
+  Mesh before = mesh(port(3), {.max_area = 0.05});
+  std::int32_t corner = -1;
+  for (std::size_t v = 0; v < before.points.size(); ++v)
+    if (before.points[v] == Point{3, 3}) corner = static_cast<std::int32_t>(v);
+  before.weirs.push_back({.type = 3, .points = {corner}, .across = {}, .values = {1, 1}});
+  CHECK(error_text([&] { (void)adapt_outline(before, port(3.5)); }).find("weir") != std::string::npos);
+  CHECK(adapt_outline(before, port(3)).mesh.weirs == before.weirs);
+}
+
+TEST_CASE("an old mesh is kept on request") {
+  AdaptiveMesh adaptive(port(3), {.max_area = 0.02, .threads = 1});
+  const auto refine = [&](double length) {
+    adaptive.adapt(std::vector<double>(adaptive.mesh().points.size(), length));
+  };
+  refine(0.15);
+  CHECK(error_text([&] { (void)adaptive.old_mesh(); }).find("keep_old") != std::string::npos);
+  adaptive.keep_old();
+  const Mesh before = adaptive.mesh();
+  refine(0.1);
+  CHECK(adaptive.old_mesh().points == before.points);
+  CHECK(adaptive.old_mesh().triangles == before.triangles);
+  adaptive.keep_old(false);
+  CHECK(error_text([&] { (void)adaptive.old_mesh(); }).find("keep_old") != std::string::npos);
+}
