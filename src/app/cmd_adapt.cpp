@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "app/adapt_command.hpp"
+#include "app/adapt_summary.hpp"
 #include "app/commands.hpp"
 #include "app/new_domain.hpp"
 #include "app/number_map.hpp"
@@ -36,21 +38,6 @@
 
 namespace driftmesh::app {
 namespace {
-
-struct AdaptCommand {
-  std::string mesh, output;
-  std::string lengths;
-  std::vector<std::string> transfers;
-  std::string only;
-  std::string outline;
-  double tolerance = 0;
-  double threshold = 1.2;
-  std::string map;
-  double angle = defaults::kMinAngle;
-  AdaptiveOptions options;
-  bool quiet = false;
-  ReadOptions reading;
-};
 
 std::string list_of_names(const std::vector<patch::NamedField>& fields) {
   std::string list;
@@ -143,35 +130,6 @@ class StageNotes final : public job::Watch {
   ProgressLine line_;
 };
 
-std::string outline_summary(const patch::Report& report, const AdaptCommand& command) {
-  std::string text = "outline        ";
-  if (report.gone_edges == 0 && report.pieces == 0)
-    text += "the same as before\n";
-  else
-    text += fmt::format("{} edges gone, {} lines new\n", report.gone_edges, report.pieces);
-  if (report.beyond > 0)
-    text += fmt::format("beyond         {} new points where the mesh was not before: data of its nearest place\n",
-                        report.beyond);
-  if (report.other_markers > 0)
-    text += fmt::format("markers        {} edges that stay keep theirs, which are others in {}\n", report.other_markers,
-                        command.outline);
-  return text;
-}
-
-std::string summary(const patch::Report& report, const Mesh& mesh, std::size_t before, const AdaptCommand& command,
-                    const std::vector<job::StageTime>& stages) {
-  std::string text = fmt::format("triangles      {} before, {} now: {} gone, {} made\n", before, mesh.triangles.size(),
-                                 report.gone, report.made);
-  if (!command.outline.empty()) text += outline_summary(report, command);
-  text += fmt::format("points         {} gone, {} made\n", report.gone_points, report.new_points);
-  if (!command.only.empty() || !command.outline.empty())
-    text += fmt::format("margin         {} triangles around {}, up to {:.4g} away\n", report.margin,
-                        command.outline.empty() ? "what was asked for" : "what touches it", report.margin_width);
-  text += "time          ";
-  for (const job::StageTime& stage : stages) text += fmt::format(" {} {:.2f} s", stage.name, stage.seconds);
-  return text + "\nfile           " + command.output + "\n";
-}
-
 /// If more than half has to change, all does.
 patch::Unmet what_is_to_change(const Mesh& mesh, const patch::Order& order, const AdaptCommand& command) {
   patch::Unmet unmet;
@@ -184,23 +142,6 @@ patch::Unmet what_is_to_change(const Mesh& mesh, const patch::Order& order, cons
   if (command.threshold == 1 || 2 * change > static_cast<std::ptrdiff_t>(mesh.triangles.size()))
     unmet.triangles.assign(mesh.triangles.size(), true);
   return unmet;
-}
-
-std::string unmet_summary(const patch::Unmet& unmet, const patch::Report& report, std::size_t before) {
-  const auto kept = static_cast<std::int64_t>(before) - report.gone;
-  return fmt::format(
-      "kept           {} triangles; {} were too large, {} too dense, {} below the angle, {} not Delaunay\n", kept,
-      unmet.too_large, unmet.too_dense, unmet.skinny, unmet.not_delaunay);
-}
-
-void warn_if_nothing_stays(const patch::Remade& remade, const Box& before, const AdaptCommand& command) {
-  if (std::ranges::any_of(remade.old_triangles, [](std::int32_t old) { return old >= 0; })) return;
-  const Box now = Box::of(remade.mesh.points);
-  std::cerr << fmt::format(
-      "warning: nothing of the mesh stays in the domain of {}: the mesh was from {:.10g},{:.10g} to {:.10g},{:.10g}, "
-      "the domain is from {:.10g},{:.10g} to {:.10g},{:.10g}\n",
-      command.outline, before.low.x, before.low.y, before.high.x, before.high.y, now.low.x, now.low.y, now.high.x,
-      now.high.y);
 }
 
 void run_adapt(const AdaptCommand& command) {
@@ -259,10 +200,10 @@ void run_adapt(const AdaptCommand& command) {
   });
   staged.commit();
   notes.end();
-  if (!command.outline.empty()) warn_if_nothing_stays(remade, box, command);
-  if (command.quiet) return;
-  if (!unmet.triangles.empty()) print(unmet_summary(unmet, remade.report, before));
-  print(summary(remade.report, remade.mesh, before, command, notes.take_stages()));
+  if (!command.outline.empty())
+    if (const std::string warning = warning_if_nothing_stays(remade, box, command); !warning.empty())
+      notes.warned(warning);
+  if (!command.quiet) print(adapt_summary(remade, unmet, before, command, notes.take_stages()));
 }
 
 std::vector<cli::Option> adapt_options(AdaptCommand& command) {

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "driftmesh/adaptive.hpp"
+#include "driftmesh/defaults.hpp"
+#include "driftmesh/files.hpp"
+
+namespace driftmesh::app {
+
+/// What the command line of driftmesh adapt says.
+struct AdaptCommand {
+  std::string mesh, output;
+  std::string lengths;
+  std::vector<std::string> transfers;
+  std::string only;
+  std::string outline;
+  double tolerance = 0;
+  double threshold = 1.2;
+  std::string map;
+  double angle = defaults::kMinAngle;
+  AdaptiveOptions options;
+  bool quiet = false;
+  ReadOptions reading;
+};
+
+}  // namespace driftmesh::app
