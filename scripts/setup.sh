@@ -16,7 +16,8 @@ packages_of() {
     test) echo doctest-dev libboost-dev python3 python3-yaml ;;
     all) echo chromium clang-format clang-tidy dpkg-dev file fish gdal-bin gmsh gmt-gshhg-full libcgal-dev man-db mypy python3-pip \
       python3-h5py python3-scipy python3-shapely python3-venv spin zsh ;;  # what scripts/test.sh --all needs besides
-    readers) echo gmsh openmpi-bin python3-dolfinx python3-h5py python3-meshio python3-petsc4py python3-vtk9 ;;
+    readers) echo gmsh openmpi-bin python3-dolfinx python3-geopandas python3-h5py python3-matplotlib python3-meshio python3-netcdf4 python3-petsc4py \
+      python3-vtk9 python3-xarray ;;
     bench) echo libbenchmark-dev libcgal-dev ;;
     fuzz) echo clang libclang-rt-14-dev libfuzzer-14-dev ;;
     hosts) echo iproute2 nftables ;;

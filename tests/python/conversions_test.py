@@ -68,6 +68,34 @@ class OtherPrograms(unittest.TestCase):
         x, y, triangles = MESH
         self.assertTrue(np.array_equal(np.column_stack((x, y)), MESH.points) and triangles.shape == MESH.triangles.shape)
 
+    @needs("matplotlib")
+    def test_matplotlib_draws_it(self):
+        from matplotlib.figure import Figure
+        lines, _ = Figure().subplots().triplot(*MESH)
+        edges = {frozenset((a, b)) for corners in MESH.triangles.tolist() for a, b in zip(corners, corners[1:] + corners[:1])}
+        self.assertEqual(np.isnan(lines.get_xdata().astype(float)).sum(), len(edges))  # one after each
+
+    @needs("geopandas")
+    def test_geopandas(self):
+        import geopandas
+        from shapely.geometry import Point, box
+        land = geopandas.GeoDataFrame(geometry=[box(0, 0, 40, 30).difference(box(10, 10, 20, 20)), Point(60, 10).buffer(5)], crs="EPSG:32632")
+        mesh = driftmesh.mesh(driftmesh.from_polygons(land), max_area=5)
+        x, y = mesh.points[mesh.triangles].transpose(2, 0, 1)
+        covered = abs(np.cross(np.c_[x[:, 1] - x[:, 0], y[:, 1] - y[:, 0]], np.c_[x[:, 2] - x[:, 0], y[:, 2] - y[:, 0]])).sum() / 2
+        self.assertAlmostEqual(covered, land.area.sum(), places=6)
+        with self.assertRaisesRegex(ValueError, "in degrees; project them"):
+            driftmesh.from_polygons(land.to_crs("EPSG:4326"))
+
+    @needs("xarray")
+    def test_xarray(self):
+        import xarray
+        x, y = np.linspace(0, 3, 31), np.linspace(2, 0, 21)
+        depth = xarray.DataArray(0.05 + 0.1 * x + 0 * y[:, None], dims=("y", "x"), coords={"x": x, "y": y})
+        mesh = driftmesh.mesh(DOMAIN, size=driftmesh.sizes.raster(depth))
+        centers = mesh.points[mesh.triangles].mean(axis=1)[:, 0]
+        self.assertGreater((centers < 1).sum(), 2 * (centers > 2).sum())
+
     @needs("meshio")
     def test_meshio(self):
         mesh = driftmesh.to_meshio(MESH)
