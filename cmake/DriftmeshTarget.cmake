@@ -3,9 +3,18 @@
 add_library(driftmesh_flags INTERFACE)
 # Contracting a*b+c into one fused operation changes the rounding that the exact predicates reason about and
 # lets two nodes compute different shared points. It is off on every target, whatever the compiler's default.
-target_compile_options(driftmesh_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow
-                                                 -Wnon-virtual-dtor -Wold-style-cast)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "MSVC")
+  target_compile_options(driftmesh_flags INTERFACE /fp:precise /W4)
+elseif(CMAKE_CXX_COMPILER_FRONTEND_VARIANT STREQUAL "MSVC")  # clang-cl, which ignores options that it does not know
+  target_compile_options(driftmesh_flags INTERFACE /clang:-ffp-contract=off /W4)
+else()
+  target_compile_options(driftmesh_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow
+                                                   -Wnon-virtual-dtor -Wold-style-cast)
+endif()
 target_include_directories(driftmesh_flags INTERFACE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
+if(DRIFTMESH_PORTABLE)
+  target_compile_definitions(driftmesh_flags INTERFACE DRIFTMESH_PORTABLE)
+endif()
 if(DRIFTMESH_WERROR)
   target_compile_options(driftmesh_flags INTERFACE -Werror)
 endif()

@@ -80,11 +80,16 @@ if(may_have_gdal AND NOT DRIFTMESH_GDAL STREQUAL "OFF")
   endif()
 endif()
 
-# Whether the build has a library that some boxes can do without.
+# Whether the build has a library that some boxes can do without, and the system that it is made for.
 foreach(lib IN ITEMS boost_serialization cairo hdf5 json metis zlib)
   string(TOUPPER ${lib} part)
   set(driftmesh_has_${lib} ${DRIFTMESH_${part}})
 endforeach()
+
+set(driftmesh_has_linux ON)
+if(DRIFTMESH_PORTABLE)
+  set(driftmesh_has_linux OFF)
+endif()
 
 set(driftmesh_lib_boost_serialization Boost::serialization)
 set(driftmesh_lib_cairo PkgConfig::CAIRO)

@@ -67,8 +67,8 @@ driftmesh_product(pictures driftmesh_pictures BOXES ${boxes_of_pictures} LINKS d
 list(APPEND driftmesh_products pictures)
 
 # For C. Its names and structures are those of its own version, so it exports them and nothing else, whatever is in it. Only where
-# boxes are compiled for shared libraries.
-if(DRIFTMESH_PYTHON OR BUILD_SHARED_LIBS)
+# boxes are compiled for shared libraries, and the linker knows versions.
+if((DRIFTMESH_PYTHON OR BUILD_SHARED_LIBS) AND NOT APPLE AND NOT WIN32)
   set(exports ${PROJECT_SOURCE_DIR}/src/triangle/c/exports.map)
   add_library(driftmesh_triangle SHARED $<TARGET_OBJECTS:dm_triangle_c>)
   add_library(driftmesh::triangle ALIAS driftmesh_triangle)

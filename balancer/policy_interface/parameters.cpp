@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <charconv>
 #include <sstream>
 #include <system_error>
 
+#include "base/from_chars.hpp"
 #include "base/nearest_name.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/policy_parameters.hpp"
@@ -14,7 +14,7 @@ namespace {
 template <class T>
 bool parse(const std::string& text, T& value) {
   const char* const end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, value);
+  const auto result = from_chars(text.data(), end, value);
   return result.ec == std::errc() && result.ptr == end;
 }
 

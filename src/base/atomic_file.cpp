@@ -1,11 +1,14 @@
 #include "base/atomic_file.hpp"
 
+#ifndef DRIFTMESH_PORTABLE
 #include <sys/stat.h>
 #include <unistd.h>
+#endif
 
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <system_error>
 #include <tuple>
 #include <utility>
 
@@ -21,28 +24,64 @@ constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
 constexpr std::size_t kUnbuffered = kBufferBytes / 2;
 constexpr std::size_t kAtOnce = 8 * kBufferBytes;  // so that the disk can begin
 
+namespace fs = std::filesystem;
+
 // Renaming over a device or a pipe would replace it by a plain file.
 bool must_write_directly(const std::string& target) {
   std::error_code ignored;
-  const auto status = std::filesystem::status(target, ignored);
-  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
-         !std::filesystem::is_directory(status);
+  const auto status = fs::status(target, ignored);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
-// As far as this process may.
-void hand_on_permissions(std::FILE* to, const std::string& target) {
+#ifdef DRIFTMESH_PORTABLE
+
+void hand_on_permissions(std::FILE*, const std::string& name, const std::string& target) {
+  std::error_code ignored;
+  if (const auto old = fs::status(target, ignored); fs::exists(old)) fs::permissions(name, old.permissions(), ignored);
+}
+
+std::FILE* copy_of_standard_output() {
+  return stdout;
+}
+
+std::size_t write_some(std::FILE* stream, WriteBehind&, std::uint64_t, const char* bytes, std::size_t count) {
+  return std::fwrite(bytes, 1, count, stream);
+}
+
+#else
+
+/// From a file to the one that will replace it, open as `to`, of that name. As far as this process may.
+void hand_on_permissions(std::FILE* to, const std::string&, const std::string& target) {
   struct stat old {};
   if (::stat(target.c_str(), &old) != 0) return;
   std::ignore = ::fchown(::fileno(to), old.st_uid, old.st_gid);
   std::ignore = ::fchmod(::fileno(to), old.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO));
 }
 
-std::FILE* open_standard_output() {
-  if (!take_standard_output())
-    throw InputError({"-"}, "standard output can hold only one file", "give the others a name");
+std::FILE* copy_of_standard_output() {
   if (::write(STDOUT_FILENO, "", 0) == -1) return nullptr;  // it is closed
   const int copy = ::dup(STDOUT_FILENO);
   return copy == -1 ? nullptr : ::fdopen(copy, "wb");
+}
+
+/// Writes at the end of a stream, which is at this place, without a copy, and returns how many bytes; 0 if that fails.
+std::size_t write_some(std::FILE* stream, WriteBehind& behind, std::uint64_t place, const char* bytes,
+                       std::size_t count) {
+  const int file = ::fileno(stream);
+  ssize_t written = -1;
+  do written = ::write(file, bytes, count);
+  while (written < 0 && errno == EINTR);
+  if (written <= 0) return 0;
+  behind.wrote(file, place, static_cast<std::size_t>(written));
+  return static_cast<std::size_t>(written);
+}
+
+#endif
+
+std::FILE* open_standard_output() {
+  if (!take_standard_output())
+    throw InputError({"-"}, "standard output can hold only one file", "give the others a name");
+  return copy_of_standard_output();
 }
 
 }  // namespace
@@ -60,10 +99,10 @@ AtomicFile::AtomicFile(const std::string& path)
 }
 
 void AtomicFile::open() {
-  struct stat found {};
-  if (::stat(target_.c_str(), &found) != 0 && errno == ENAMETOOLONG) fail("cannot write");
-  if (S_ISDIR(found.st_mode)) {
-    errno = EISDIR;
+  std::error_code failed;
+  const bool is_folder = fs::is_directory(target_, failed);
+  if (is_folder || failed == std::errc::filename_too_long) {
+    errno = is_folder ? EISDIR : ENAMETOOLONG;
     fail("cannot write");
   }
   errno = 0;
@@ -79,7 +118,7 @@ void AtomicFile::open() {
       noted_.reset();
       temporary_.clear();
     } else {
-      hand_on_permissions(stream_, target_);
+      hand_on_permissions(stream_, temporary_, target_);
     }
   }
 }
@@ -101,13 +140,10 @@ void AtomicFile::write(const void* bytes, std::size_t count) {
 /// Behind what is in the buffer.
 void AtomicFile::write_large(const char* bytes, std::size_t count) {
   if (std::fflush(stream_) != 0) fail("cannot write");
-  const int file = ::fileno(stream_);
   for (std::size_t done = 0; done < count;) {
-    const ssize_t now = ::write(file, bytes + done, std::min(count - done, kAtOnce));
-    if (now < 0 && errno == EINTR) continue;
-    if (now <= 0) fail("cannot write");
-    behind_.wrote(file, size_ + done, static_cast<std::size_t>(now));
-    done += static_cast<std::size_t>(now);
+    const std::size_t now = write_some(stream_, behind_, size_ + done, bytes + done, std::min(count - done, kAtOnce));
+    if (now == 0) fail("cannot write");
+    done += now;
   }
 }
 
@@ -123,7 +159,7 @@ void AtomicFile::commit() {
   if (std::fclose(stream) != 0) fail("cannot write");
   if (temporary_.empty()) return;
   std::error_code unknown;  // others may have written it by name
-  size_ = std::max<std::uint64_t>(size_, std::filesystem::file_size(temporary_, unknown));
+  size_ = std::max<std::uint64_t>(size_, fs::file_size(temporary_, unknown));
   StagedFiles alone;
   StagedFiles::File staged{{path_, size_}, target_, std::exchange(temporary_, {}), std::move(noted_), {}};
   alone.take(std::move(staged));

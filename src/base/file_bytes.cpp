@@ -1,10 +1,13 @@
 #include "base/file_bytes.hpp"
 
+#ifndef DRIFTMESH_PORTABLE
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#endif
 
+#include "base/mapping.hpp"
 #include "base/read_file.hpp"
 #include "base/standard_streams.hpp"
 
@@ -17,8 +20,16 @@ FileBytes::FileBytes(const std::string& path, std::string_view first) {
 }
 
 FileBytes::~FileBytes() {
-  if (mapped_ != nullptr) munmap(mapped_, view_.size());
+  if (mapped_ != nullptr) unmap(mapped_, view_.size());
 }
+
+#ifdef DRIFTMESH_PORTABLE
+
+bool FileBytes::map(const std::string&) {
+  return false;
+}
+
+#else
 
 bool FileBytes::map(const std::string& path) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // does not wait for a pipe
@@ -36,5 +47,7 @@ bool FileBytes::map(const std::string& path) {
   close(file);
   return mapped_ != nullptr;
 }
+
+#endif
 
 }  // namespace driftmesh

@@ -1,6 +1,8 @@
 #include "base/file_identity.hpp"
 
+#ifndef DRIFTMESH_PORTABLE
 #include <sys/stat.h>
+#endif
 
 #include <algorithm>
 #include <filesystem>
@@ -14,11 +16,33 @@ namespace fs = std::filesystem;
 
 constexpr int kMostLinks = 40;  // as Linux allows
 
+#ifdef DRIFTMESH_PORTABLE
+
+/// Hard links to one file are several then.
+std::optional<FileIdentity> existing(const std::string& path) {
+  std::error_code failed;
+  const fs::path found = fs::canonical(path, failed);
+  if (failed) return std::nullopt;
+  return FileIdentity{0, 0, found.string()};
+}
+
+FileIdentity in_folder(const FileIdentity& folder, const fs::path& name) {
+  return {0, 0, (fs::path(folder.name) / name).string()};
+}
+
+#else
+
 std::optional<FileIdentity> existing(const std::string& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) return std::nullopt;
   return FileIdentity{status.st_dev, status.st_ino, ""};
 }
+
+FileIdentity in_folder(const FileIdentity& folder, const fs::path& name) {
+  return {folder.device, folder.inode, name.string()};
+}
+
+#endif
 
 }  // namespace
 
@@ -48,7 +72,7 @@ FileIdentity identity_of(const std::string& path) {
   if (const auto found = existing(path)) return *found;
   const fs::path target = link_target(path);
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  if (const auto in = existing(folder.string())) return {in->device, in->inode, target.filename().string()};
+  if (const auto in = existing(folder.string())) return in_folder(*in, target.filename());
   return {0, 0, fs::absolute(target).lexically_normal().string()};
 }
 

@@ -11,7 +11,7 @@ namespace driftmesh {
 struct FileIdentity {
   std::uint64_t device = 0;  ///< where the file is, or its folder if the file does not exist
   std::uint64_t inode = 0;
-  std::string name{};  ///< empty for a file that exists
+  std::string name{};  ///< empty for a file that exists; in portable builds the whole path
 
   friend bool operator==(const FileIdentity&, const FileIdentity&) = default;
   friend bool operator<(const FileIdentity& a, const FileIdentity& b) {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <sys/mman.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
@@ -10,16 +8,17 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/mapping.hpp"
 #include "driftmesh/id_vector.hpp"
 
 namespace driftmesh {
 
 /// A contiguous array of trivially copyable values that grows without copying once it is large: small arrays live on
-/// the heap, large ones in their own mapping, which mremap extends in place or by moving page tables. Since that costs
-/// little, large arrays grow in small steps: what a process has mapped stays close to what it uses, and can be limited
-/// (see cap_memory in job/memory.hpp). Large mappings request huge pages, because accesses to a mesh are too scattered
-/// for a TLB of small pages. Elements above size() are uninitialized. Throws std::bad_alloc when the system has no more
-/// memory to map. Elements are indexed by Id.
+/// the heap, large ones in their own mapping, which the system extends in place or by moving page tables, if it can.
+/// Since that costs little, large arrays grow in small steps: what a process has mapped stays close to what it uses,
+/// and can be limited (see cap_memory in job/memory.hpp). Large mappings request huge pages, because accesses to a mesh
+/// are too scattered for a TLB of small pages. Elements above size() are uninitialized. Throws std::bad_alloc when the
+/// system has no more memory to map. Elements are indexed by Id.
 template <class T, IsId Id = std::size_t>
 class GrowingArray {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -104,7 +103,7 @@ class GrowingArray {
 
   void reallocate(std::size_t capacity) {
     const std::size_t bytes = capacity * sizeof(T);
-    if (bytes >= kMapFrom) {
+    if (kHasMappings && bytes >= kMapFrom) {
       reallocate_mapped((bytes + kHugePage - 1) / kHugePage * kHugePage);
       capacity_ = mapped_bytes_ / sizeof(T);
       return;
@@ -116,11 +115,9 @@ class GrowingArray {
   }
 
   void reallocate_mapped(std::size_t bytes) {
-    void* grown = mapped_bytes_ != 0 ? mremap(data_, mapped_bytes_, bytes, MREMAP_MAYMOVE)
-                                     : mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
-                                            MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    if (grown == MAP_FAILED) throw std::bad_alloc();
-    madvise(grown, bytes, MADV_HUGEPAGE);
+    void* grown = extend_mapping(data_, mapped_bytes_, bytes);
+    if (grown == nullptr) throw std::bad_alloc();
+    request_huge_pages(grown, bytes);
     if (mapped_bytes_ == 0 && data_ != nullptr) {
       std::memcpy(grown, static_cast<const void*>(data_), size_ * sizeof(T));
       std::free(static_cast<void*>(data_));
@@ -131,7 +128,7 @@ class GrowingArray {
 
   void release() {
     if (mapped_bytes_ != 0)
-      munmap(static_cast<void*>(data_), mapped_bytes_);
+      unmap(data_, mapped_bytes_);
     else
       std::free(static_cast<void*>(data_));
   }

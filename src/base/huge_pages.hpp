@@ -1,9 +1,9 @@
 #pragma once
 
-#include <sys/mman.h>
-
 #include <cstddef>
 #include <memory>
+
+#include "base/mapping.hpp"
 
 namespace driftmesh {
 
@@ -15,8 +15,7 @@ void reserve_in_huge_pages(Values& values, std::size_t count) {
   values.reserve(count);
   void* begin = values.data();
   std::size_t room = count * sizeof(*values.data());
-  if (std::align(kHugePage, kHugePage, begin, room) != nullptr)
-    madvise(begin, room / kHugePage * kHugePage, MADV_HUGEPAGE);
+  if (std::align(kHugePage, kHugePage, begin, room) != nullptr) request_huge_pages(begin, room / kHugePage * kHugePage);
 }
 
 }  // namespace driftmesh

@@ -1,17 +1,32 @@
 #include "base/mapped_array.hpp"
 
+#ifndef DRIFTMESH_PORTABLE
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
+#endif
 
 #include <cstdlib>
 #include <string>
 
-#include "base/scratch_file.hpp"
+#include "base/mapping.hpp"
+#include "base/unnamed_file.hpp"
 #include "driftmesh/error.hpp"
 
 namespace driftmesh {
 namespace {
+
+#ifdef DRIFTMESH_PORTABLE
+
+void* room_for(std::uint64_t bytes) {
+  return std::calloc(bytes, 1);
+}
+
+void give_back(void* begin, std::uint64_t) {
+  std::free(begin);
+}
+
+#else
 
 constexpr std::uint64_t kSmall = std::uint64_t{256} << 20;  // bytes; below, memory it is
 
@@ -20,8 +35,9 @@ std::string folder_for_temporary_files() {
   return named != nullptr && *named != '\0' ? named : "/tmp";
 }
 
-void* map(std::uint64_t bytes) {
-  if (bytes <= kSmall) return mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+/// nullptr if there is none.
+void* room_for(std::uint64_t bytes) {
+  if (bytes <= kSmall) return extend_mapping(nullptr, 0, bytes);
   const std::string folder = folder_for_temporary_files();
   const int file = open_without_name(folder);
   if (file < 0) throw FileError(folder, "cannot keep scratch data in this folder");
@@ -32,22 +48,25 @@ void* map(std::uint64_t bytes) {
   if (!has_room)
     throw FileError(folder + ": has no room for " + std::to_string(bytes >> 20) +
                     " MB of scratch data; set TMPDIR to a folder on a larger disk");
-  return mapped;
+  return mapped == MAP_FAILED ? nullptr : mapped;
 }
+
+void give_back(void* begin, std::uint64_t bytes) {
+  unmap(begin, bytes);
+}
+
+#endif
 
 }  // namespace
 
 MappedRoom::MappedRoom(std::uint64_t bytes) : bytes_(bytes) {
   if (bytes == 0) return;
-  begin_ = map(bytes);
-  if (begin_ == MAP_FAILED) {
-    begin_ = nullptr;
-    throw LimitError("no room for an array of " + std::to_string(bytes >> 20) + " MB");
-  }
+  begin_ = room_for(bytes);
+  if (begin_ == nullptr) throw LimitError("no room for an array of " + std::to_string(bytes >> 20) + " MB");
 }
 
 MappedRoom::~MappedRoom() {
-  if (begin_ != nullptr) munmap(begin_, bytes_);
+  if (begin_ != nullptr) give_back(begin_, bytes_);
 }
 
 }  // namespace driftmesh

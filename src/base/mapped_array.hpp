@@ -7,9 +7,9 @@
 
 namespace driftmesh {
 
-/// Bytes for arrays that may be larger than memory, all 0 at first. Large ones are mapped from a file without a name in
-/// the folder for temporary files (TMPDIR, else /tmp): the system keeps in memory what is in use, as far as there is
-/// room, and the rest on disk.
+/// Bytes for arrays that may be larger than memory, all 0 at first. In portable builds they are memory; otherwise large
+/// ones are mapped from a file without a name in the folder for temporary files (TMPDIR, else /tmp): the system keeps
+/// in memory what is in use, as far as there is room, and the rest on disk.
 class MappedRoom {
  public:
   MappedRoom() = default;

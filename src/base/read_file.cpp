@@ -1,20 +1,21 @@
 #include "base/read_file.hpp"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <system_error>
 #include <utility>
 
 #include "base/huge_pages.hpp"
 #include "base/standard_streams.hpp"
+#include "base/system.hpp"
 #include "driftmesh/error.hpp"
 
 namespace driftmesh {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct CloseFile {
   void operator()(std::FILE* file) const {
@@ -44,24 +45,29 @@ bool is_given_by_shell(const std::string& path) {
   return path.starts_with("/dev/fd/") || path.starts_with("/proc/self/fd/") || path == "/dev/stdin";
 }
 
-struct stat status_of(const std::string& path) {
-  struct stat status {};
-  errno = 0;
-  if (::stat(path.c_str(), &status) != 0) throw FileError(path, "cannot open");
-  return status;
+fs::file_type type_of(const std::string& path) {
+  std::error_code failed;
+  const fs::file_type type = fs::status(path, failed).type();
+  if (type != fs::file_type::none && type != fs::file_type::not_found) return type;
+  errno = failed.default_error_condition().value();
+  throw FileError(path, "cannot open");
 }
 
 bool is_stream(const std::string& path) {
-  return is_standard_stream(path) || (is_given_by_shell(path) && S_ISFIFO(status_of(path).st_mode));
+  return is_standard_stream(path) || (is_given_by_shell(path) && type_of(path) == fs::file_type::fifo);
+}
+
+OpenFile opened(const std::string& path) {
+  errno = 0;
+  OpenFile file(std::fopen(path.c_str(), "rb"));
+  if (!file) throw FileError(path, "cannot open");
+  return file;
 }
 
 OpenFile open_file(const std::string& path) {
   if (is_standard_stream(path)) return standard_input();
   if (!is_stream(path)) require_regular_file(path);
-  errno = 0;
-  OpenFile file(std::fopen(path.c_str(), "rb"));
-  if (!file) throw FileError(path, "cannot open");
-  return file;
+  return opened(path);
 }
 
 /// Checks what comes in from a stream, whose end nobody knows.
@@ -83,8 +89,7 @@ class StreamGuard {
   }
 
  private:
-  static inline const std::size_t kMost =
-      static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES)) / 4 * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  static inline const std::uint64_t kMost = memory_of_machine() / 4;
   const std::string& path_;
   std::string_view first_;
   bool begun_ = false;
@@ -93,16 +98,15 @@ class StreamGuard {
 }  // namespace
 
 void require_regular_file(const std::string& path) {
-  const mode_t mode = status_of(path).st_mode;
-  if (!S_ISREG(mode))
+  const fs::file_type type = type_of(path);
+  if (type != fs::file_type::regular)
     throw InputError({path},
-                     S_ISDIR(mode)    ? "is a folder, not a file"
-                     : S_ISFIFO(mode) ? "is a pipe, not a file"
-                     : S_ISSOCK(mode) ? "is a socket, not a file"
-                                      : "is a device, not a file",
+                     type == fs::file_type::directory ? "is a folder, not a file"
+                     : type == fs::file_type::fifo    ? "is a pipe, not a file"
+                     : type == fs::file_type::socket  ? "is a socket, not a file"
+                                                      : "is a device, not a file",
                      "name a file, or - for standard input");
-  errno = 0;
-  if (::access(path.c_str(), R_OK) != 0) throw FileError(path, "cannot open");
+  opened(path);
 }
 
 std::string read_file(const std::string& path, std::string_view first) {

@@ -4,17 +4,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
 
+#include "base/unnamed_file.hpp"
+
 namespace driftmesh {
 
-/// Opens a file without a name in a folder, for reading and writing; -1 if that fails, with the reason in errno.
-[[nodiscard]] int open_without_name(const std::string& folder);
-
-/// Room on disk for what memory shall not hold. The file has no name, so the system removes it when the process ends,
-/// however that happens. Bytes are only ever appended; where some are no longer needed, a hole is punched, which gives
-/// the room back to the file system if it knows holes. Errors: FileError. Threads may use it at the same time.
+/// Room on disk for what memory shall not hold, in an unnamed file. Bytes are only ever appended; those that are no
+/// longer needed are given back to the file system. Errors: FileError. Threads may use it at the same time.
 class ScratchFile {
  public:
   /// Bytes in the file, while the object exists.
@@ -37,7 +36,6 @@ class ScratchFile {
 
   /// In this folder. Throws FileError if it cannot be written there.
   explicit ScratchFile(std::string folder);
-  ~ScratchFile();
   ScratchFile(const ScratchFile&) = delete;
   ScratchFile& operator=(const ScratchFile&) = delete;
 
@@ -45,15 +43,13 @@ class ScratchFile {
   [[nodiscard]] Piece put(std::initializer_list<std::span<const std::byte>> parts);
   /// Nothing in it is needed any more: pieces may only be destroyed. The system is faster in giving up the whole file
   /// than many pieces of it, which would have to reach the disk first.
-  void discard();
+  void discard() { file_.reset(); }
   /// What its file system still has for this process.
   [[nodiscard]] std::uint64_t room() const;
 
  private:
-  [[noreturn]] void fail(const char* what) const;
-
   std::string folder_;
-  int file_ = -1;
+  std::optional<UnnamedFile> file_;
   std::atomic<std::uint64_t> end_ = 0;
 };
 

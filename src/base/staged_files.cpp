@@ -1,11 +1,10 @@
 #include "base/staged_files.hpp"
 
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
+#include <system_error>
 #include <utility>
 
 #include "driftmesh/error.hpp"
@@ -13,7 +12,17 @@
 namespace driftmesh {
 namespace {
 
+namespace fs = std::filesystem;
+
 thread_local StagedFiles* innermost = nullptr;
+
+/// Over a file of that name, too. If it fails, errno says why.
+bool rename_file(const std::string& from, const std::string& to) noexcept {
+  std::error_code failed;
+  fs::rename(from, to, failed);
+  if (failed) errno = failed.default_error_condition().value();
+  return !failed;
+}
 
 }  // namespace
 
@@ -60,18 +69,16 @@ void StagedFiles::finish() noexcept {
 /// A second link to it, or, on file systems without, another name.
 void StagedFiles::keep_old(File& file) {
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file.target, ignored)) return;  // over others, renaming fails
+  if (!fs::is_regular_file(file.target, ignored)) return;  // over others, renaming fails
   const std::string old = temporary_name(file.target);
-  errno = 0;
-  if (::link(file.target.c_str(), old.c_str()) != 0 && std::rename(file.target.c_str(), old.c_str()) != 0)
-    throw FileError(file.listed.path, "cannot replace");
+  std::error_code no_links;
+  fs::create_hard_link(file.target, old, no_links);
+  if (no_links && !rename_file(file.target, old)) throw FileError(file.listed.path, "cannot replace");
   file.old = old;
 }
 
 void StagedFiles::rename_to_target(File& file) {
-  errno = 0;
-  if (std::rename(file.temporary.c_str(), file.target.c_str()) != 0)
-    throw FileError(file.listed.path, "cannot rename to");
+  if (!rename_file(file.temporary, file.target)) throw FileError(file.listed.path, "cannot rename to");
   file.temporary.clear();
   file.noted.reset();
 }
@@ -81,7 +88,7 @@ void StagedFiles::take_back() noexcept {
   for (auto file = files_.rbegin(); file != files_.rend(); ++file) {
     const bool appeared = file->temporary.empty();
     if (!file->old.empty())
-      std::rename(file->old.c_str(), file->target.c_str());
+      rename_file(file->old, file->target);
     else if (appeared)
       std::remove(file->target.c_str());
     if (!appeared) std::remove(file->temporary.c_str());

@@ -1,7 +1,9 @@
 #include "base/standard_streams.hpp"
 
+#ifndef DRIFTMESH_PORTABLE
 #include <fcntl.h>
 #include <unistd.h>
+#endif
 
 #include <cerrno>
 #include <cstdio>
@@ -14,10 +16,6 @@ namespace {
 
 bool is_taken = false;  // standard output, by a file
 
-bool is_open(int descriptor) {
-  return ::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF;
-}
-
 [[noreturn]] void fail() {
   throw FileError("standard output", "cannot write");
 }
@@ -27,6 +25,24 @@ bool is_open(int descriptor) {
 bool is_standard_stream(std::string_view path) {
   return path == "-" || (path.starts_with("-.") && path.find('/') == std::string_view::npos);
 }
+
+#ifdef DRIFTMESH_PORTABLE
+
+void hold_closed_streams() {}
+
+void mute_standard_output() {
+  std::fclose(stdout);
+}
+
+#else
+
+namespace {
+
+bool is_open(int descriptor) {
+  return ::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF;
+}
+
+}  // namespace
 
 // A descriptor opened for the other direction fails like a closed one. open() takes the lowest that is free.
 void hold_closed_streams() {
@@ -40,6 +56,8 @@ void mute_standard_output() {
   static_cast<void>(::dup2(nowhere, STDOUT_FILENO));
   static_cast<void>(::close(nowhere));
 }
+
+#endif
 
 bool take_standard_output() {
   return !std::exchange(is_taken, true);

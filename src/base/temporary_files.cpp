@@ -1,21 +1,18 @@
 #include "base/temporary_files.hpp"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
-#include <cctype>
-#include <cerrno>
 #include <charconv>
-#include <climits>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <mutex>
 #include <set>
 #include <string_view>
 #include <vector>
+
+#include "base/system.hpp"
 
 namespace driftmesh {
 
@@ -37,18 +34,13 @@ std::atomic<int> held{0};     // how many HeldSignals there are
 std::atomic<int> waiting{0};  // a signal that came meanwhile, or 0
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<Note*>::is_always_lock_free);
 
-constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE};
-
 extern "C" void remove_and_die(int signal) {
   if (held.load() > 0) {
     waiting.store(signal);
     if (held.load() > 0) return;  // otherwise nobody may look anymore whether a signal waits
   }
   remove_noted_temporaries();
-  struct sigaction action {};
-  action.sa_handler = SIG_DFL;
-  ::sigaction(signal, &action, nullptr);
-  ::raise(signal);  // takes effect when this handler returns
+  end_by(signal);
 }
 
 Note* free_note() {
@@ -66,41 +58,25 @@ Note* free_note() {
 // ---- Whose a temporary file is ---------------------------------------------------------------------------------
 
 constexpr std::string_view kMark = ".tmp-";
-
-/// Process numbers mean something within one host and one namespace of processes: containers may share folders and even
-/// the name of their host, but not the namespace.
-std::string host() {
-  char name[65] = "host";
-  static_cast<void>(::gethostname(name, sizeof name - 1));
-  std::string text = name;
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) == 0 && c != '.' && c != '_'; }, '_');
-  struct stat processes {};
-  if (::stat("/proc/self/ns/pid", &processes) == 0) text.append(1, '.').append(std::to_string(processes.st_ino));
-  return text;
-}
+constexpr std::size_t kLongestName = 255;
 
 std::string mark_of_host() {
-  static const std::string mark = std::string(kMark) + host() + "-";
+  static const std::string mark = std::string(kMark) + host_of_processes() + "-";
   return mark;
 }
 
 /// The process that a temporary file of this host belongs to; 0 for any other file.
-pid_t owner_of(std::string_view name) {
+long owner_of(std::string_view name) {
   const std::string mark = mark_of_host();
   const std::size_t at = name.rfind(mark);
   if (at == std::string_view::npos || at == 0) return 0;
   const char *begin = name.data() + at + mark.size(), *const end = name.data() + name.size();
-  pid_t process = 0;
+  long process = 0;
   unsigned number = 0;
   const auto [dash, no_process] = std::from_chars(begin, end, process);
   if (no_process != std::errc() || dash == end || *dash != '-') return 0;
   const auto [last, no_number] = std::from_chars(dash + 1, end, number);
   return no_number == std::errc() && last == end ? process : 0;
-}
-
-bool is_dead(pid_t process) {
-  return process > 0 && ::kill(process, 0) == -1 && errno == ESRCH;
 }
 
 fs::path folder_of(const std::string& target) {
@@ -119,11 +95,10 @@ bool is_first_look(const std::string& folder) {
 
 std::string temporary_name(const std::string& target) {
   static std::atomic<unsigned> counter{0};
-  const std::string ending = mark_of_host() + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+  const std::string ending = mark_of_host() + std::to_string(number_of_process()) + "-" + std::to_string(counter++);
   const fs::path path(target);
   std::string name = path.filename().string();
-  if (name.size() + ending.size() > NAME_MAX)
-    name.resize(NAME_MAX - std::min<std::size_t>(ending.size(), NAME_MAX - 1));
+  if (name.size() + ending.size() > kLongestName) name.resize(kLongestName - std::min(ending.size(), kLongestName - 1));
   return (path.parent_path() / (name + ending)).string();
 }
 
@@ -134,7 +109,7 @@ void remove_remains_beside(const std::string& target) {
   std::vector<fs::path> remains;
   for (fs::directory_iterator at(folder, ignored), end; !ignored && at != end; at.increment(ignored))
     if (at->symlink_status(ignored).type() == fs::file_type::regular &&
-        is_dead(owner_of(at->path().filename().string())))
+        has_ended(owner_of(at->path().filename().string())))
       remains.push_back(at->path());
   for (const fs::path& file : remains) fs::remove(file, ignored);
 }
@@ -152,19 +127,11 @@ NotedTemporary::~NotedTemporary() {
 
 void remove_noted_temporaries() noexcept {
   for (const Note* note = notes.load(); note != nullptr; note = note->next)
-    if (note->state.load() == Note::kNoted) ::unlink(note->path);
+    if (note->state.load() == Note::kNoted) std::remove(note->path);  // which calls unlink() and no more
 }
 
 void remove_temporaries_on_signals() {
-  for (const int signal : kSignals) {
-    struct sigaction action {};
-    if (::sigaction(signal, nullptr, &action) != 0) continue;
-    if (action.sa_handler == SIG_IGN && signal != SIGPIPE) continue;
-    action = {};
-    action.sa_handler = remove_and_die;
-    action.sa_flags = SA_RESTART;
-    ::sigaction(signal, &action, nullptr);
-  }
+  call_at_ending_signals(remove_and_die);
 }
 
 HeldSignals::HeldSignals() {
@@ -173,7 +140,7 @@ HeldSignals::HeldSignals() {
 
 HeldSignals::~HeldSignals() {
   if (--held > 0) return;
-  if (const int signal = waiting.exchange(0); signal != 0) ::raise(signal);
+  if (const int signal = waiting.exchange(0); signal != 0) std::raise(signal);
 }
 
 }  // namespace driftmesh

@@ -1,6 +1,8 @@
 #include "base/write_behind.hpp"
 
+#ifndef DRIFTMESH_PORTABLE
 #include <fcntl.h>
+#endif
 
 #include <atomic>
 #include <tuple>
@@ -25,8 +27,12 @@ void WriteBehind::wrote(int file, std::uint64_t place, std::size_t count) noexce
   if (place != end_) begin_ = place;
   end_ = place + count;
   if (end_ - begin_ < kEnough) return;
+#ifdef DRIFTMESH_PORTABLE
+  std::ignore = file;
+#else
   std::ignore = ::sync_file_range(file, static_cast<off_t>(begin_), static_cast<off_t>(end_ - begin_),
                                   SYNC_FILE_RANGE_WRITE);  // begins, and does not wait
+#endif
   begin_ = end_;
 }
 

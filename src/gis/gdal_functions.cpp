@@ -1,8 +1,10 @@
 #include "gis/gdal_functions.hpp"
 
+#ifdef DRIFTMESH_GDAL_LIBRARY
 #include <dlfcn.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#endif
 
 #include <array>
 #include <filesystem>

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/from_chars.hpp"
+
 namespace driftmesh {
 namespace {
 
@@ -19,7 +21,7 @@ std::optional<Point> center_from(std::string_view text) {
   const std::size_t blank = text.find(' ');
   if (blank == std::string_view::npos) return std::nullopt;
   const auto number = [](std::string_view word, double& value) {
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const auto [end, error] = from_chars(word.data(), word.data() + word.size(), value);
     return error == std::errc() && end == word.data() + word.size();
   };
   Point center;

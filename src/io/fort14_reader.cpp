@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/from_chars.hpp"
 #include "io/boundary_types.hpp"
 #include "io/byte_cursor.hpp"
 #include "io/fort14_format.hpp"
@@ -35,7 +36,7 @@ class Fields {
         text, [](char c) { return c == 'D' || c == 'd'; }, 'e');
     if (text.starts_with('+')) text.erase(0, 1);
     double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) fail(word, what);
     return value;
   }

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <charconv>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
+#include "base/from_chars.hpp"
 #include "driftmesh/error.hpp"
 #include "io/byte_cursor.hpp"
 
@@ -40,7 +40,7 @@ class TextMshInput {
     cursor_.skip_blanks();
     const std::string_view rest = cursor_.rest();
     Number value{};
-    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+    const auto [end, error] = from_chars(rest.data(), rest.data() + rest.size(), value);
     const auto length = static_cast<std::size_t>(end - rest.data());
     if (error != std::errc() || (length < rest.size() && !ByteCursor::is_blank(*end)))
       throw InputError(cursor_.place(),

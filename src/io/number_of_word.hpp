@@ -1,9 +1,10 @@
 #pragma once
 
-#include <charconv>
 #include <optional>
 #include <string_view>
 #include <system_error>
+
+#include "base/from_chars.hpp"
 
 namespace driftmesh {
 
@@ -13,7 +14,7 @@ template <class Number>
   const char* const begin = word.data() + (word.starts_with('+') ? 1 : 0);
   const char* const end = word.data() + word.size();
   Number value{};
-  const auto [stop, error] = std::from_chars(begin, end, value);
+  const auto [stop, error] = from_chars(begin, end, value);
   if (error != std::errc() || stop != end) return std::nullopt;
   return value;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <memory>
@@ -10,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/from_chars.hpp"
 #include "base/huge_pages.hpp"
 #include "driftmesh/error.hpp"
 #include "io/byte_cursor.hpp"
@@ -130,7 +130,7 @@ class VtuValues {
       if (text_.empty()) fail_with_count(taken_ + part_.size());
       const char* const end = text_.data() + text_.size();
       From value{};
-      const auto [stop, error] = std::from_chars(text_.data(), end, value);
+      const auto [stop, error] = from_chars(text_.data(), end, value);
       if (error != std::errc() || (stop != end && !ByteCursor::is_blank(*stop)))
         throw InputError({path_, array_.line}, "a DataArray holds text that is not " + array_.type, kDamaged);
       part_.push_back(checked(value));

@@ -4,6 +4,8 @@
 
 namespace driftmesh::job {
 
+// In portable builds all of it is unknown: 0, and no cap.
+
 /// Peak memory of this process in bytes (resident set; getrusage).
 [[nodiscard]] std::uint64_t peak_memory();
 /// Its current memory.

@@ -33,7 +33,11 @@ Bytes bytes_of(const Told& told) {
 std::string time_of_day() {
   const std::time_t now = std::time(nullptr);
   std::tm parts{};
+#ifdef _WIN32
+  localtime_s(&parts, &now);
+#else
   localtime_r(&now, &parts);
+#endif
   std::array<char, 16> text{};
   return {text.data(), std::strftime(text.data(), text.size(), "%H:%M:%S", &parts)};
 }

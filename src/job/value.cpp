@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/formatted.hpp"
+#include "base/from_chars.hpp"
 
 namespace driftmesh::job {
 namespace {
@@ -93,7 +94,7 @@ bool read_number(const std::string& text, bool binary, double& number) {
   const char* begin = text.data();
   const char* const all = begin + text.size();
   if (begin != all && *begin == '+') ++begin;  // from_chars rejects a plus sign
-  const auto [end, error] = std::from_chars(begin, all, number);
+  const auto [end, error] = from_chars(begin, all, number);
   if (error != std::errc{}) return false;
   const int power = power_of({end, static_cast<std::size_t>(all - end)}, binary);
   if (power < 0) return false;

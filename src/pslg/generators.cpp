@@ -1,10 +1,10 @@
 #include "pslg/generators.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <sstream>
 #include <type_traits>
 
+#include "base/from_chars.hpp"
 #include "base/nearest_name.hpp"
 #include "driftmesh/error.hpp"
 
@@ -19,7 +19,7 @@ void read_value(const std::string& text, const std::string& of, Value& value) {
     if (text != "true" && text != "false") throw InputError(of + " is '" + text + "'; it is either true or false");
     value = text == "true";
   } else {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size())
       throw InputError(of + " is '" + text + "'; give " + (std::is_integral_v<Value> ? "a whole number" : "a number"));
   }

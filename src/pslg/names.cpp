@@ -1,11 +1,11 @@
 #include "pslg/names.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <set>
 #include <utility>
 
+#include "base/from_chars.hpp"
 #include "driftmesh/error.hpp"
 
 namespace driftmesh {
@@ -51,7 +51,7 @@ bool is_taken(const std::map<Value, std::string>& names, const std::string& name
 template <class Number>
 std::optional<Number> number_from(std::string_view text) {
   Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
 }

@@ -1,12 +1,12 @@
 #include "pslg/record_scanner.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <type_traits>
 #include <utility>
 
+#include "base/from_chars.hpp"
 #include "driftmesh/error.hpp"
 #include "geometry/predicates.hpp"
 
@@ -101,7 +101,7 @@ T RecordScanner::parse(const char* what) {
   }
   T value{};
   const bool has_plus = *at_ == '+' && at_ + 1 != end_ && at_[1] != '-';
-  const auto [stop, error] = std::from_chars(has_plus ? at_ + 1 : at_, end_, value);
+  const auto [stop, error] = from_chars(has_plus ? at_ + 1 : at_, end_, value);
   const std::string_view field = take_field();
   if (error == std::errc() && stop == at_) return value;
   if (error == std::errc::result_out_of_range && stop == at_)

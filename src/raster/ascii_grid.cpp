@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "base/from_chars.hpp"
 #include "base/letter_case.hpp"
 #include "driftmesh/error.hpp"
 
@@ -73,7 +73,7 @@ std::string_view AsciiGrid::next_word() {
 double AsciiGrid::number(std::string_view word, const char* what) const {
   double value = 0;
   const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const auto [end, error] = from_chars(digits.data(), digits.data() + digits.size(), value);
   if (word.empty()) fail("the file ends where " + std::string(what) + " is expected", "it was not written completely");
   if (error != std::errc{} || end != digits.data() + digits.size())
     fail(quoted(word) + " is not " + what, "numbers have a point, and blanks between them");

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "base/from_chars.hpp"
 #include "base/key_error.hpp"
 #include "base/nearest_name.hpp"
 #include "sizing/local_width.hpp"
@@ -124,7 +125,7 @@ class Parser {
         token_.text = rest.substr(0, token_.text.size() + 1);
   }
   void take_number(std::string_view rest) {
-    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), token_.number);
+    const auto [end, error] = from_chars(rest.data(), rest.data() + rest.size(), token_.number);
     token_.kind = Token::kNumber;
     token_.text = rest.substr(0, end - rest.data());
     if (error != std::errc{})

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "base/from_chars.hpp"
 #include "driftmesh/defaults.hpp"
 #include "driftmesh/error.hpp"
 
@@ -169,7 +170,7 @@ class Reader {
       for (at_ += 2; has(is_digit);) ++at_;
     double value = 0;
     const char* const end = text_.data() + at_;
-    const auto read = std::from_chars(text_.data() + begin, end, value);
+    const auto read = from_chars(text_.data() + begin, end, value);
     if (read.ec != std::errc() || read.ptr != end)
       refuse(text_[begin - 1], "has the number '" + std::string(text_.substr(begin, at_ - begin)) + "'", "correct it");
     return value;

@@ -37,9 +37,9 @@ LIBRARIES = {
     "zoltan": (r"zoltan.*\.h", ["partition_zoltan"]),
 }
 
-# Headers of the standard library and of POSIX, and malloc.h of the C library: free for all.
+# Headers of the standard library and of POSIX, malloc.h of the C library, and io.h of Windows: free for all.
 STANDARD = re.compile(r"""[a-z_]+ | sys/[a-z]+\.h
-    | (assert|ctype|dirent|dlfcn|errno|fcntl|fenv|float|inttypes|limits|locale|malloc|math|poll|pthread|sched|setjmp|signal
+    | (assert|ctype|dirent|dlfcn|errno|fcntl|fenv|float|inttypes|io|limits|locale|malloc|math|poll|pthread|sched|setjmp|signal
        |stdarg|stddef|stdint|stdio|stdlib|string|strings|termios|time|unistd|wchar|wctype)\.h""", re.VERBOSE)
 
 # Dependencies that are never allowed: algorithms see no messages; planners and mobile objects see no communicator, policies no
