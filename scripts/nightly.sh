@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The tests of threads under the thread sanitizer, the property tests with new seeds, whether the tests notice mutated sources, the tests that scripts/test.sh does not run
-# under the other sanitizers, 100,000 mutated files and 20,000 mutated meshes, read and checked under them by driftmesh-mutants, and
+# under the other sanitizers, the wheel in roots of its own, 100,000 mutated files and 20,000 mutated meshes, read and checked under them by driftmesh-mutants, and
 # a million adversarial schedules of real meshing with driftmesh-sim, on all cores: prints the failing seeds, and totals. The exit
 # code is 0 if none fails.
 #   scripts/nightly.sh [--mutants FIRST..LAST] [--meshes FIRST..LAST]      which mutated files and meshes; 0..0: none
@@ -8,6 +8,7 @@
 #                      [--properties N]                                   so many runs of the property tests (20; 0: none)
 #                      [--no-threads]                                     without the thread sanitizer
 #                      [--no-night]                                       without the tests with the label `night`
+#                      [--no-wheel]                                       without building the wheel, and trying it, which take root's rights
 #                      [--no-mutation]                                    without asking which mutated sources the tests miss
 #                      [--mutants-program PATH] [--program PATH]          without a build first
 set -euo pipefail
@@ -22,6 +23,7 @@ program=
 mutants_program=
 threads=yes
 night=yes
+wheel=yes
 mutation=yes
 properties=20
 while [[ $# -gt 0 ]]; do
@@ -38,6 +40,7 @@ while [[ $# -gt 0 ]]; do
       ;;
     --no-threads) threads=no ;;
     --no-night) night=no ;;
+    --no-wheel) wheel=no ;;
     --no-mutation) mutation=no ;;
     --program)
       program=${2-}
@@ -48,7 +51,7 @@ while [[ $# -gt 0 ]]; do
       shift
       ;;
     -h | --help)
-      sed -n '2,12s/^# \{0,1\}//p' "$0"
+      sed -n '2,13s/^# \{0,1\}//p' "$0"
       exit 0
       ;;
     *)
@@ -75,6 +78,11 @@ if [[ $night == yes ]]; then
   cmake --preset asan-ubsan -DDRIFTMESH_SANITIZE_SCOPES=ON -Wno-dev && cmake --build --preset asan-ubsan -j "$jobs"
   say "Tests of the night, and the long ones, under the address and undefined-behavior sanitizers"
   ctest --preset asan-ubsan -L '^(night|long)$' --no-tests=error -j "$jobs" --timeout 600 || result=1
+fi
+if [[ $wheel == yes ]]; then
+  say "The wheel"
+  rm -rf build/wheels
+  { scripts/setup.sh wheel && packaging/wheel/build.sh --to build/wheels && packaging/wheel/try.sh build/wheels/driftmesh-*.whl; } || result=1
 fi
 if [[ $mutation == yes ]]; then
   say "Mutated sources"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that the named groups need and that are missing.
-#   scripts/setup.sh [build] [gis] [report] [python] [test] [all] [readers] [bench] [fuzz] [hosts] [site]        (default: build)
+#   scripts/setup.sh [build] [gis] [report] [python] [test] [all] [readers] [bench] [fuzz] [wheel] [hosts] [site]        (default: build)
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
 
@@ -19,11 +19,12 @@ packages_of() {
     readers) echo gmsh openmpi-bin python3-dolfinx python3-geopandas python3-h5py python3-matplotlib python3-meshio python3-netcdf4 python3-petsc4py \
       python3-vtk9 python3-xarray ;;
     bench) echo libbenchmark-dev libcgal-dev ;;
+    wheel) echo debootstrap binutils ;;
     fuzz) echo clang libclang-rt-14-dev libfuzzer-14-dev ;;
     hosts) echo iproute2 nftables ;;
     site) echo doxygen mkdocs ;;
     *)
-      echo "setup.sh: unknown group '$1'; use build, gis, report, python, test, all, readers, bench, fuzz, hosts or site" >&2
+      echo "setup.sh: unknown group '$1'; use build, gis, report, python, test, all, readers, bench, fuzz, wheel, hosts or site" >&2
       return 2
       ;;
   esac
