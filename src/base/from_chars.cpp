@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <clocale>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <string>
 #include <string_view>
@@ -17,10 +18,12 @@ bool is_digit(char c) {
 /// The end of the longest number that std::from_chars takes; the beginning if there is none.
 const char* end_of_number(const char* const begin, const char* const end) {
   const char* at = begin + (begin != end && *begin == '-' ? 1 : 0);
+  const auto is_next = [&](std::string_view word) {
+    return word.size() <= static_cast<std::size_t>(end - at) &&
+           std::equal(word.begin(), word.end(), at, [](char letter, char c) { return letter == (c | ' '); });
+  };
   for (const std::string_view word : {"infinity", "inf", "nan"})
-    if (std::equal(word.begin(), word.end(), at, std::min(end, at + word.size()),
-                   [](char a, char b) { return a == (b | ' '); }))
-      return at + word.size();
+    if (is_next(word)) return at + word.size();
   const char* const whole = at;
   while (at != end && is_digit(*at)) ++at;
   auto digits = at - whole;
