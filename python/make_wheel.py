@@ -22,8 +22,8 @@ except ImportError:  # before Python 3.11
 
 EPOCH = (1980, 1, 1, 0, 0, 0)  # the same files make the same wheel
 
-# What every Linux has, in the version of its C library.
-EVERYWHERE = re.compile(r"(libc|libm|libpthread|libdl|librt|ld-linux[\w-]*)\.so\.\d+")
+# What every Linux has, in the version of its C library; libgcc_s has not changed for long.
+EVERYWHERE = re.compile(r"(libc|libm|libpthread|libdl|librt|libgcc_s|ld-linux[\w-]*)\.so\.\d+")
 
 
 def least_glibc(modules):

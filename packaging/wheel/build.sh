@@ -46,7 +46,8 @@ cp packaging/wheel/libraries.sh "$root/driftmesh-wheel/"
 [[ -e $root/driftmesh-wheel/libraries/done ]] || inside /driftmesh-wheel/libraries.sh /driftmesh-wheel/libraries
 touch "$root/driftmesh-wheel/libraries/done"
 
-# The one function of a C library newer than 2.34, which the releases 9 of Red Hat and its kin have; the older version of it does the same.
+# C libraries since 2.34 will do, as the releases 9 of Red Hat and its kin have: of hypot() the older version is taken, which does the same,
+# and libgcc is that of the system, since ours asks for a newer one.
 older=
 if [[ $(uname -m) == x86_64 ]]; then
   inside gcc -O2 -fPIC -x c -c - -o /driftmesh-wheel/hypot.o <<'C'
@@ -64,7 +65,7 @@ python3 -c 'import sys; sys.path.insert(0, "python/backend"); import driftmesh_b
   "$root/driftmesh-wheel/sdist"
 define="CMAKE_PREFIX_PATH=/driftmesh-wheel/libraries;PKG_CONFIG_ARGN=--static;DRIFTMESH_GDAL=OFF;DRIFTMESH_CAIRO=ON;DRIFTMESH_HDF5=ON"
 define+=";DRIFTMESH_JSON=ON;DRIFTMESH_METIS=ON;DRIFTMESH_ZLIB=ON"
-define+=";CMAKE_MODULE_LINKER_FLAGS=-static-libstdc++ -static-libgcc -Wl,--gc-sections$older${DEFINE:+;$DEFINE}"
+define+=";CMAKE_MODULE_LINKER_FLAGS=-static-libstdc++ -Wl,--gc-sections$older${DEFINE:+;$DEFINE}"
 inside env PKG_CONFIG_PATH=/driftmesh-wheel/libraries/lib/pkgconfig sh -c '
   exec python3 -m pip wheel --no-deps --no-index --no-build-isolation --wheel-dir /driftmesh-wheel/wheels "$@" /driftmesh-wheel/sdist/*.tar.gz' sh \
   --config-settings "define=$define" --config-settings licenses=/driftmesh-wheel/libraries/licenses
