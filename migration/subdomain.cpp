@@ -198,18 +198,26 @@ std::int64_t Subdomain::rest() {
 
 void Subdomain::sleep() {
   if (!body_ || active()) return;
-  const RefinerState& refiner = body_->refiner.state();
-  auto dormant = std::make_unique<DormantBody>();
-  dormant->mesh = DormantMesh(body_->part);
-  const auto waking = DormantMesh::waking_subsegments(body_->part.mesh);
-  for (const SubsegmentId s : refiner.unsplittable) dormant->unsplittable.push_back(waking[s]);
-  std::ranges::sort(dormant->unsplittable);
-  dormant->max_triangles = refiner.max_triangles;
-  dormant->counters = refiner.counters;
-  dormant->forecast = body_->forecast;
-  if (context_->scratch != nullptr) stored_.emplace(*context_->scratch, dormant->mesh.take());
-  dormant_ = std::move(dormant);
+  fall_asleep(asleep());
   body_.reset();
+}
+
+void Subdomain::fall_asleep(DormantBody&& dormant) {
+  dormant_ = std::make_unique<DormantBody>(std::move(dormant));
+  if (context_->scratch != nullptr) stored_.emplace(*context_->scratch, dormant_->mesh.take());
+}
+
+DormantBody Subdomain::asleep() const {
+  const RefinerState& refiner = body_->refiner.state();
+  DormantBody dormant;
+  dormant.mesh = DormantMesh(body_->part);
+  const auto waking = DormantMesh::waking_subsegments(body_->part.mesh);
+  for (const SubsegmentId s : refiner.unsplittable) dormant.unsplittable.push_back(waking[s]);
+  std::ranges::sort(dormant.unsplittable);
+  dormant.max_triangles = refiner.max_triangles;
+  dormant.counters = refiner.counters;
+  dormant.forecast = body_->forecast;
+  return dormant;
 }
 
 SubdomainMesh Subdomain::woken() const {
@@ -259,6 +267,12 @@ Bytes Subdomain::pack() const {
   return driftmesh::pack(view);
 }
 
+Bytes Subdomain::pack_small() const {
+  if (!body_ || active()) return pack();
+  const DormantBody dormant = asleep();
+  return driftmesh::pack(SubdomainView{id(), refined_, pending_, {}, &dormant});
+}
+
 Subdomain Subdomain::unpack(std::span<const std::byte> bytes, const SubdomainContext& context, Source source) {
   SubdomainState state = driftmesh::unpack(bytes, source);
   const std::string fault = misfit(state, *context.decomposition);
@@ -275,7 +289,7 @@ Subdomain Subdomain::unpack(std::span<const std::byte> bytes, const SubdomainCon
   } catch (const Error& error) {
     throw Error("the packed form of subdomain " + to_string(state.id) + " is damaged: " + error.what());
   }
-  if (state.dormant) subdomain.dormant_ = std::make_unique<DormantBody>(std::move(*state.dormant));
+  if (state.dormant) subdomain.fall_asleep(std::move(*state.dormant));
   return subdomain;
 }
 

@@ -101,6 +101,8 @@ class Subdomain final : public Work {
   /// Everything as bytes (see packed_form.hpp), very few before the first work(); the subdomain that unpack makes of
   /// them continues exactly as this one would.
   [[nodiscard]] Bytes pack() const override;
+  /// The same in the fewest bytes: what has nothing to do is packed asleep, though it stays awake.
+  [[nodiscard]] Bytes pack_small() const;
   /// Throws Error, naming the subdomain, for bytes that are not the packed form of a subdomain of this context.
   [[nodiscard]] static Subdomain unpack(std::span<const std::byte> bytes, const SubdomainContext& context,
                                         Source source = Source::kUnknown);
@@ -122,6 +124,8 @@ class Subdomain final : public Work {
   void make_body();
   [[nodiscard]] std::vector<dyadic::Path> presplit_of(GlobalRootId root) const;
   [[nodiscard]] DormantBody whole_dormant() const;
+  [[nodiscard]] DormantBody asleep() const;
+  void fall_asleep(DormantBody&& dormant);
   [[nodiscard]] bool has(const SplitPoint<GlobalRootId>& split) const;
   void take_in(const SplitPoint<GlobalRootId>& split);
   void say_new_points(std::vector<SplitPoint<GlobalRootId>>& said);

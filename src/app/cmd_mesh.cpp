@@ -1,4 +1,5 @@
 #include <memory>
+#include <set>
 #include <string>
 
 #include "app/commands.hpp"
@@ -9,6 +10,7 @@
 #include "cli/values.hpp"
 #include "config/experiment.hpp"
 #include "job/check.hpp"
+#include "job/checkpoint_file.hpp"
 #include "protocol/mpi/mpi_transport.hpp"
 
 namespace driftmesh::app {
@@ -18,7 +20,32 @@ struct MeshCommand {
   GivenKeys given;
   std::string config;
   bool allow_code = false;
+  bool reproducible = false;  // --method rounds
 };
+
+/// What was asked for makes the mesh in rounds, unless another method is asked for.
+void imply_rounds(job::Request& request, const std::set<std::string>& given, bool reproducible) {
+  const job::Request::Run& run = request.run;
+  if (!reproducible && run.checkpoint.empty() && run.resume.empty()) return;
+  const char* const why = reproducible ? "reproducible" : run.resume.empty() ? "run.checkpoint" : "run.resume";
+  if (given.contains("run.method") && run.method != job::Method::kRounds)
+    throw job::KeyError("run.method", KeyText::of("is not rounds, which {} implies", KeyText::key(why)),
+                        "remove one of them");
+  request.run.method = job::Method::kRounds;
+}
+
+std::set<std::string> given_keys(const GivenKeys& given, const config::SourcePlaces& places) {
+  std::set<std::string> names;
+  for (const GivenKeys::Item& item : given.items) names.insert(item.key->name);
+  for (const auto& [name, place] : places) names.insert(name);
+  return names;
+}
+
+/// The command that makes the same mesh from its beginning.
+std::string repeating_command(job::Request request) {
+  request.run.resume.clear();
+  return command_line_of("driftmesh mesh", request, job::kMesh);
+}
 
 /// Runs the request of the command line and its settings file.
 int run(const MeshCommand& command) {
@@ -32,12 +59,15 @@ int run(const MeshCommand& command) {
     command.given.apply(settings.request);
     for (const GivenKeys::Item& item : command.given.items) settings.places.erase(item.key->name);
     if (!command.allow_code) config::refuse_code_of_file(settings.request, settings.places);
-    const job::Request& request = settings.request;
+    job::Request& request = settings.request;
+    const std::set<std::string> given = given_keys(command.given, settings.places);
+    if (!request.run.resume.empty()) request = job::resumed_request(request, given);
+    imply_rounds(request, given, command.reproducible);
     const job::Request::Input& input = request.input;
     if (input.file.empty() && input.generator.empty() && input.parameters.empty() && input.contour.empty())
       throw cli::UsageError("INPUT is missing");
     const job::PlaceKind place = job::place_of(request, job::kMesh, launched);
-    code = run_mesh(request, place, command_line_of("driftmesh mesh", request, job::kMesh), command.config);
+    code = run_mesh(request, place, repeating_command(request), command.config);
   });
   return code;
 }
@@ -54,6 +84,11 @@ cli::Command mesh_command() {
                      .completes = cli::Option::Completes::kFile,
                      .take = cli::into(command->config)});
   options.push_back(allow_code_option(command->allow_code));
+  options.push_back({.kind = cli::Option::Kind::kFlag,
+                     .name = "reproducible",
+                     .help = "Make a mesh that does not depend on the number of ranks: --method rounds",
+                     .group = "Subdomains and ranks",
+                     .take = cli::into(command->reproducible)});
   return {.name = "mesh",
           .summary = "Generate a quality mesh of a domain",
           .options = std::move(options),
@@ -64,7 +99,9 @@ cli::Command mesh_command() {
                        "driftmesh mesh bay.poly --angle 30 -o bay.msh -o bay.ele",
                        "driftmesh mesh bay.poly --size \"20 + 0.1*abs(x)\" --json run.json",
                        "driftmesh mesh bay.poly --size \"20 + 0.1*distance(1)\" --size-max 500 -o bay.vtu",
-                       "mpirun -n 4 driftmesh mesh bay.poly --area 50 -o bay.pvtu"},
+                       "mpirun -n 4 driftmesh mesh bay.poly --area 50 -o bay.pvtu",
+                       "mpirun -n 4 driftmesh mesh bay.poly --area 50 --checkpoint bay.kept --every 10m -o bay.pvtu",
+                       "mpirun -n 8 driftmesh mesh --resume bay.kept -o bay.pvtu"},
           .exit_codes = "0 done, 1 error, 2 wrong usage, 3 stopped by a limit",
           .run = [command](cli::Call&) { return run(*command); }};
 }

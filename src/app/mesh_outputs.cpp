@@ -19,6 +19,7 @@ void register_files(const Told& told, std::int32_t pieces) {
   register_picture(files, wanted.picture, called("output.picture"));
   register_output(files, wanted.record, called("output.record"));
   register_output(files, told.request.sizing.save_tree, called("sizing.save-tree"));
+  register_output(files, told.request.run.checkpoint, called("run.checkpoint"));
 }
 
 std::vector<std::string> files_written(const Request& request, std::int32_t pieces) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -21,7 +22,9 @@
 #include "job/make.hpp"
 #include "job/mpi/mpi_team.hpp"
 #include "job/on_ranks.hpp"
+#include "job/rounds_on_ranks.hpp"
 #include "job/same_on_ranks.hpp"
+#include "job/with_ranks.hpp"
 #include "picture/plot.hpp"
 
 namespace driftmesh::app {
@@ -43,11 +46,10 @@ job::Draw drawing(const Request& request) {
   return [&request, title](const Mesh& mesh) { plot_mesh(mesh, request.output.picture, {.title = title}); };
 }
 
-int mesh_at(job::Place& place, const Told& told, RunNotes& notes) {
+int mesh_at(job::Place& place, const Told& told, bool on_ranks, RunNotes& notes) {
   const Request& request = told.request;
   const job::Given given{.policies = balancer::make_policy};
   const job::Wanted wanted = job::wanted_of(request.output);
-  const bool on_ranks = place.kind() == job::kRanks;
   const auto before = [&] {
     register_files(told, on_ranks ? place.ranks() : 1);
     if (on_ranks) warn_of_few_cores(request, notes);
@@ -79,7 +81,14 @@ int mesh_here(job::PlaceKind kind, const Told& told) {
       throw InputError({output}, "has a file for each rank of MPI", "start the program with mpirun, or write a .mesh");
   job::Here here(kind, job::threads_of(told.request));
   RunNotes notes(told);
-  return mesh_at(here, told, notes);
+  return mesh_at(here, told, false, notes);
+}
+
+void mesh_in_rounds(job::Team& team, const Told& told, RunNotes& notes) {
+  job::with_ranks(team, [&](Ranks& ranks) {
+    job::RoundsOnRanks place(team, ranks, std::max(1, told.request.run.threads));
+    ranks.alike([&] { static_cast<void>(mesh_at(place, told, true, notes)); });
+  });
 }
 
 int mesh_on_ranks(const Told& told) {
@@ -88,9 +97,13 @@ int mesh_on_ranks(const Told& told) {
   try {
     const std::string start = team.alone() ? "" : "mpirun -n " + std::to_string(team.ranks()) + " ";
     job::require_same(team, job::settings_of(told.request));
-    job::OnRanks ranks(team, balancer::make_policy);
     RunNotes notes(told, start, !team.leads());
-    static_cast<void>(mesh_at(ranks, told, notes));
+    if (told.request.run.method == job::Method::kRounds) {
+      mesh_in_rounds(team, told, notes);
+    } else {
+      job::OnRanks place(team, balancer::make_policy);
+      static_cast<void>(mesh_at(place, told, true, notes));
+    }
   } catch (const std::exception&) {
     if (team.leads()) throw;
     return 0;  // all ranks have the error, and rank 0 reports it

@@ -217,7 +217,7 @@ void add_ranks(const RunRecord& run, Text out) {
                  counted(static_cast<std::int64_t>(run.ranks.size()), rank_word(run)),
                  threads > 1 ? fmt::format(" of {} threads", threads) : "", run.presplit ? "cut to size" : "not cut");
   fmt::format_to(out, "             {} put on interfaces by refinement, ", counted(splits, "split point"));
-  if (run.on_threads)
+  if (run.rounds > 0)
     fmt::format_to(out, "in {}\n", counted(run.rounds, "round"));
   else
     fmt::format_to(out, "{} sent between ranks in {}\n", grouped(sum.splits_sent),
@@ -229,6 +229,13 @@ void add_ranks(const RunRecord& run, Text out) {
     fmt::format_to(out, "             {} of split points forwarded after a subdomain, {} at most; {} held for one\n",
                    counted(sum.forwarded, "group"), counted(sum.most_hops, "hop"), grouped(sum.held));
   add_rank_table(run, out);
+}
+
+void add_checkpoints(const RunRecord& run, Text out) {
+  const job::CheckpointRecord& kept = run.checkpoints;
+  if (kept.count == 0) return;
+  fmt::format_to(out, "kept         {} in {}, {}, which took {:.2f} s\n", counted(kept.count, "checkpoint"),
+                 run.request.run.checkpoint, bytes_words(kept.bytes), kept.seconds);
 }
 
 void add_files(const RunRecord& run, Text out) {
@@ -272,6 +279,7 @@ std::string summary_text(const RunRecord& run) {
   add_step(run, out);
   add_work(run, out);
   add_ranks(run, out);
+  add_checkpoints(run, out);
   add_files(run, out);
   return text;
 }

@@ -47,6 +47,8 @@ class Ranks {
   }
   /// Whether one of these has thrown: then all ranks know of the failure.
   [[nodiscard]] bool have_failed_together() const { return failed_together_; }
+  /// They go on nevertheless.
+  void recovered() { failed_together_ = false; }
 
  protected:
   Ranks() = default;

@@ -29,6 +29,7 @@ class Hdf5Bytes {
   explicit Hdf5Bytes(const std::string& path);
 
   [[nodiscard]] std::int64_t version() const { return version_; }
+  [[nodiscard]] bool has(const std::string& array) const { return arrays_.contains(array); }
   /// Throws InputError if the file has no such array, or ends before these bytes do.
   [[nodiscard]] std::uint64_t size_of(const std::string& array) const;
   [[nodiscard]] Bytes read(const std::string& array, std::uint64_t first, std::uint64_t count) const;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/nearest_name.hpp"
+#include "base/standard_streams.hpp"
 #include "driftmesh/error.hpp"
 #include "gis/coordinates.hpp"
 #include "gis/projection.hpp"
@@ -40,12 +41,15 @@ void check_value(const Key& key, const Value& value) {
 
 // ---- Where it applies ------------------------------------------------------------------------------------------
 
-[[noreturn]] void refuse_at(const Key& key, PlaceKind place) {
+[[noreturn]] void refuse_at(const Key& key, PlaceKind place, Method method) {
   if (key.places == kOnePiece)
     throw KeyError(key.name, "applies only to a mesh in one piece: incomplete subdomains would not fit together",
                    "remove it");
   if (key.places == kSimulated)
     throw KeyError(key.name, "applies only to simulated clusters", "remove it, or simulate the cluster");
+  if ((key.places & kSubdomains) == 0 && method == Method::kRounds)
+    throw KeyError(key.name, "is for ranks that depend on each other, but {run.method} is rounds",
+                   "remove it, or use the coupled method");
   if ((key.places & kSubdomains) == 0)
     throw KeyError(key.name, "needs several ranks, but this process is alone", "start it with mpirun, or remove it");
   if (place != kOnePiece)
@@ -56,7 +60,7 @@ void check_value(const Key& key, const Value& value) {
 
 void check_places(const Request& request, PlaceKind place) {
   for (const Key& key : keys())
-    if ((key.places & place) == 0 && key.load(request) != key.standard) refuse_at(key, place);
+    if ((key.places & place) == 0 && key.load(request) != key.standard) refuse_at(key, place, request.run.method);
 }
 
 // ---- Combinations of values ------------------------------------------------------------------------------------
@@ -175,6 +179,25 @@ void check_parts(const Request& request) {
           "cannot be combined with {mapping.speeds}", "remove one of them");
 }
 
+void check_rounds(const Request& request, PlaceKind place) {
+  if (request.run.method != Method::kRounds) return;
+  require((place & kMany) == 0, "run.method", "is rounds, which experiments do not have", "use driftmesh mesh");
+  require(request.decomposition.subdomains != 1, "run.method", "is rounds, but one piece is asked for",
+          "remove it or {decomposition.subdomains}");
+}
+
+void check_checkpoint(const Request::Run& run) {
+  const Request::Run standard;
+  require(run.checkpoint.empty() || run.method == Method::kRounds, "run.checkpoint",
+          "needs a run in rounds, but another method is asked for", "give {run.method} rounds");
+  require(run.resume.empty() || run.method == Method::kRounds, "run.resume",
+          "needs a run in rounds, but another method is asked for", "give {run.method} rounds");
+  require(!is_standard_stream(run.checkpoint), "run.checkpoint", "is standard output, which keeps nothing",
+          "name a file");
+  require(run.every == standard.every || !run.checkpoint.empty(), "run.every",
+          "is the time between checkpoints, but none are asked for", "name their file with {run.checkpoint}");
+}
+
 void check_method(const Request& request) {
   if (request.run.method != Method::kDecoupled) return;
   require(request.run.presplit != Presplit::kOff, "run.presplit",
@@ -247,7 +270,9 @@ void check_cluster(const Request& request) {
 PlaceKind place_of(const Request& request, EntryPoint entry_point, bool launched) {
   if (entry_point == kExperiment) return request.cluster.kind == ClusterKind::kSimulated ? kSimulated : kRanks;
   if (launched) return kRanks;
-  return request.decomposition.subdomains > 1 || !request.decomposition.file.empty() ? kSubdomains : kOnePiece;
+  const Request::Decomposition& parts = request.decomposition;
+  const bool cut = parts.subdomains > 1 || !parts.file.empty() || request.run.method == Method::kRounds;
+  return cut ? kSubdomains : kOnePiece;
 }
 
 void check(const Request& request, PlaceKind place, const balancer::PolicyMaker& policies) {
@@ -261,6 +286,8 @@ void check(const Request& request, PlaceKind place, const balancer::PolicyMaker&
   check_step(request.sizing, request.output.depth);
   check_policy(request, policies);
   check_parts(request);
+  check_rounds(request, place);
+  check_checkpoint(request.run);
   check_method(request);
   check_pdr(request, place);
   check_scratch(request);

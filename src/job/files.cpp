@@ -32,6 +32,8 @@ void register_reads(const Request& request, EntryPoint entry_point, FileRegistry
   if (!request.sizing.tree.empty()) reads({request.sizing.tree}, "sizing.tree");
   if (!request.decomposition.file.empty()) reads({request.decomposition.file}, "decomposition.file");
   if (!request.mapping.file.empty()) reads(mapping_files(request.mapping.file), "mapping.file");
+  if (request.run.resume != request.run.checkpoint && !request.run.resume.empty())
+    reads({request.run.resume}, "run.resume");
   if (!request.cluster.costs.empty()) reads({request.cluster.costs}, "cluster.costs");
 }
 

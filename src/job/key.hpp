@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -61,13 +62,13 @@ struct KeyInfo {
   Value standard;    ///< its default
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
-  bool above = false;                ///< must be greater than `least`, not equal
-  std::string why_not_more;          ///< the reason for the limit `most`, or empty
-  std::vector<std::string> choices;  ///< kChoice
-  std::string reserved_choice;       ///< kChoice: the one that only driftmesh run has, or empty
-  std::string or_file;               ///< kChoice: the extension of a file that may be named instead, or empty
-  bool of_files = false;             ///< kTable: its values name files, as a kFile does
-  std::vector<KeyInfo> fields;       ///< kList
+  bool above = false;                          ///< must be greater than `least`, not equal
+  std::string why_not_more;                    ///< the reason for the limit `most`, or empty
+  std::vector<std::string> choices;            ///< kChoice
+  std::map<std::string, EntryPoint> reserved;  ///< kChoice: those that only one entry point has
+  std::string or_file;                         ///< kChoice: the extension of a file that may be named instead, or empty
+  bool of_files = false;                       ///< kTable: its values name files, as a kFile does
+  std::vector<KeyInfo> fields;                 ///< kList
 
   Places places = kAnywhere;            ///< where it applies; elsewhere it is rejected
   EntryPoints entry_points = kMeshers;  ///< where it can be given

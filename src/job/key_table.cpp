@@ -197,8 +197,10 @@ Section parts_section() {
   const Names<MappingMethod> mappings = {
       {MappingMethod::kGraph, "graph"}, {MappingMethod::kBlock, "block"}, {MappingMethod::kRoundRobin, "round-robin"}};
   const Names<Presplit> presplits = {{Presplit::kAuto, "auto"}, {Presplit::kOn, "on"}, {Presplit::kOff, "off"}};
-  const Names<Method> methods = {
-      {Method::kCoupled, "coupled"}, {Method::kDecoupled, "decoupled"}, {Method::kPdr, "pdr"}};
+  const Names<Method> methods = {{Method::kCoupled, "coupled"},
+                                 {Method::kRounds, "rounds"},
+                                 {Method::kDecoupled, "decoupled"},
+                                 {Method::kPdr, "pdr"}};
   const Names<WorkOrder> orders = {
       {WorkOrder::kGiven, "given"}, {WorkOrder::kLargest, "largest"}, {WorkOrder::kBacklog, "backlog"}};
   return {
@@ -250,14 +252,16 @@ Section parts_section() {
            "Take the mapping from load balancing statistics of DARMA vt, as written by lb-statistics or by LBAF: the "
            "file of rank 0 (data.0.json)",
            file(), option("mapping-file", "FILE"), places(kMany), entry_points(kMesh | kExperiment)),
-       choice(
-           "run.method", &R::run, &R::Run::method, methods,
-           "How subdomains agree on the points between them: coupled (they tell each other), decoupled (all are made "
-           "beforehand, and a run that needs more fails), or pdr (no subdomains: ranks refine the cells of a lattice)",
-           reserved_for_experiments("pdr"), option("method", "METHOD"),
-           option_help("How subdomains agree on the points between them: coupled (they tell each other) or decoupled "
-                       "(all are made beforehand, and a mesh that needs more fails)"),
-           entry_points(kMesh | kExperiment)),
+       choice("run.method", &R::run, &R::Run::method, methods,
+              "How subdomains agree on the points between them: coupled (they tell each other at once), rounds (of "
+              "driftmesh mesh alone: after each round of refinement, so that the mesh does not depend on the number of "
+              "ranks), decoupled (all are made beforehand, and a run that needs more fails), or pdr (no subdomains: "
+              "ranks refine the cells of a lattice)",
+              reserved_for(kExperiment, "pdr"), reserved_for(kMesh, "rounds"), option("method", "METHOD"),
+              option_help("How subdomains agree on the points between them: coupled (they tell each other at once), "
+                          "rounds (after each round of refinement, so that the mesh does not depend on the number of "
+                          "ranks) or decoupled (all are made beforehand, and a mesh that needs more fails)"),
+              entry_points(kMesh | kExperiment)),
        choice(
            "run.presplit", &R::run, &R::Run::presplit, presplits,
            "Split interfaces to size before refinement: on, off (the full protocol), or auto (on if there is a bound "
@@ -288,7 +292,17 @@ Section parts_section() {
            "Threads that mesh together in a process; 0: one for each core, but under mpirun one in each. Without "
            "mpirun the mesh does not depend on their number",
            in(0, 1024), option("threads", "N"), places(kOnePiece | kSubdomains | kRanks),
-           entry_points(kMesh | kLibrary))}};
+           entry_points(kMesh | kLibrary)),
+       key("run.checkpoint", &R::run, &R::Run::checkpoint,
+           "Keep the work done so far in this file, from which --resume goes on with it: now and then, when SIGUSR1 "
+           "comes, and where SIGTERM or a limit ends the run. Implies --method rounds",
+           output_file(), option("checkpoint", "FILE"), places(kSubdomains), entry_points(kMesh)),
+       key("run.every", &R::run, &R::Run::every, "Time between two checkpoints; 10m are ten minutes", unit("seconds"),
+           above(0), option("every", "TIME"), places(kSubdomains), entry_points(kMesh)),
+       key("run.resume", &R::run, &R::Run::resume,
+           "Go on with the work in a checkpoint, on any number of ranks or threads: the mesh is that of the run that "
+           "was never stopped. All that decides it comes from the file; outputs, limits and threads may be given",
+           file(), option("resume", "FILE"), places(kSubdomains), entry_points(kMesh))}};
 }
 
 Section balance_section() {

@@ -87,8 +87,8 @@ inline auto one_of(std::vector<std::string> choices) {
     key.choices = choices;
   };
 }
-inline auto reserved_for_experiments(const char* choice) {
-  return [=](KeyInfo& key) { key.reserved_choice = choice; };
+inline auto reserved_for(EntryPoint entry_point, const char* choice) {
+  return [=](KeyInfo& key) { key.reserved[choice] = entry_point; };
 }
 inline auto or_file(const char* extension) {
   return [=](KeyInfo& key) { key.or_file = extension; };

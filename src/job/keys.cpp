@@ -92,7 +92,8 @@ void check_range(const KeyInfo& key, double value) {
 
 std::vector<std::string> choices_at(const KeyInfo& key, EntryPoint entry_point) {
   std::vector<std::string> choices = key.choices;
-  if (entry_point != kExperiment) std::erase(choices, key.reserved_choice);
+  for (const auto& [choice, only] : key.reserved)
+    if (entry_point != only) std::erase(choices, choice);
   return choices;
 }
 

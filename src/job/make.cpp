@@ -8,6 +8,7 @@
 #include "distributed/piece_series.hpp"
 #include "distributed/write_distributed.hpp"
 #include "job/check.hpp"
+#include "job/checkpoint_file.hpp"
 #include "job/prepare.hpp"
 #include "job/rank_report.hpp"
 #include "job/write_files.hpp"
@@ -29,7 +30,7 @@ Use use_of(const Asked& asked, const Place& place, bool cut, double forecast) {
   use.stores = !asked.request.run.scratch.empty();
   use.sleeps = asked.request.run.sleep || use.stores;
   use.gathers = wanted.gathered && place.processes().all > 1;
-  if (kind_when_cut(place) == kSubdomains && !wanted.whole)  // each thread a piece
+  if (kind_when_cut(place) == kSubdomains && !wanted.whole && place.processes().all == 1)  // each thread a piece
     use.at_once = std::min(1.0, static_cast<double>(place.ranks()) * kTrianglesInSeries / forecast);
   return use;
 }
@@ -43,13 +44,13 @@ Limits limits_with_sleep(const Asked& asked, const Place& place, const Pslg& psl
   return find_limits(limits, pslg, use, place.processes());
 }
 
-void check_capacity(const Asked& asked, const Place& place, const Prepared& prepared, const Use& use) {
+void check_capacity(const Asked& asked, const Place& place, const Decomposition& decomposition, double forecast,
+                    const Use& use) {
   double subdomain = 0;
-  for (const Decomposition::Subdomain& s : prepared.plan.decomposition.subdomains)
-    subdomain = std::max(subdomain, s.predicted);
+  for (const Decomposition::Subdomain& s : decomposition.subdomains) subdomain = std::max(subdomain, s.predicted);
   const int processes = place.processes().all;
   const bool whole = processes == 1 ? asked.wanted.whole : asked.wanted.gathered;
-  const double file = whole ? prepared.forecast : prepared.forecast * use.at_once / processes;
+  const double file = whole ? forecast : forecast * use.at_once / processes;
   check_capacity(subdomain, use.writes ? file : 0, use.by);
 }
 
@@ -78,6 +79,10 @@ Order in_one_piece(const Asked& asked, const Place& place, Domain&& domain, Tria
   return order;
 }
 
+Keeping keeping_of(const Request& request) {
+  return {request.run.checkpoint, request.run.every, request.run.resume, {}};
+}
+
 Order in_subdomains(const Asked& asked, const Place& place, Domain&& domain, const Triangulated& triangulated,
                     RunRecord& record, Watch& watch) {
   const Request& request = asked.request;
@@ -86,7 +91,7 @@ Order in_subdomains(const Asked& asked, const Place& place, Domain&& domain, con
   check_forecast(limits, triangulated.forecast, false, [&] { return find_narrow_place(triangulated.mesh); });
   const IdVector<Rank, double> speeds = place.speeds(request);
   Prepared prepared = prepare(request, domain, triangulated, asked.given, kind_when_cut(place), speeds, watch);
-  check_capacity(asked, place, prepared, use);
+  check_capacity(asked, place, prepared.plan.decomposition, prepared.forecast, use);
   watch.pieces(place.pieces(prepared.plan.decomposition));
   add_prepared(record, prepared);
   prepared.plan.work.sleep = use.sleeps;
@@ -101,9 +106,32 @@ Order in_subdomains(const Asked& asked, const Place& place, Domain&& domain, con
           .shares = speeds,
           .use = use,
           .scratch = request.run.scratch,
+          .keeping = keeping_of(request),
           .rasters = std::move(domain.rasters),
           .size = std::move(domain.size),
           .step = std::move(domain.step)};
+}
+
+/// The order of a run that has ended before its time, for the present place.
+Order going_on(const Asked& asked, const Place& place, RunRecord& record, Watch& watch) {
+  const Request& request = asked.request;
+  const IdVector<Rank, double> speeds = place.speeds(request);
+  Order order =
+      timed(watch, "load", [&] { return resumed_order(request, static_cast<std::int32_t>(speeds.size()), record); });
+  Use use = use_of(asked, place, true, record.forecast);
+  const Limits limits = limits_with_sleep(asked, place, order.pslg, record.forecast, use);
+  check_forecast(limits, record.forecast, false, {});
+  check_capacity(asked, place, order.plan.decomposition, record.forecast, use);
+  plan_anew(order.plan, request, kind_when_cut(place), speeds);
+  order.plan.work.sleep = use.sleeps;
+  watch.pieces(place.pieces(order.plan.decomposition));
+  order.limits = request.limits;
+  order.patience = request.patience;
+  order.shares = speeds;
+  order.use = use;
+  order.scratch = request.run.scratch;
+  order.keeping = keeping_of(request);
+  return order;
 }
 
 /// The number of ranks on which a number of triangles for each rank depends.
@@ -124,6 +152,16 @@ void save_sizes(const Request& request, const Domain& domain, const Triangulated
   });
 }
 
+Order new_order(const Asked& asked, const Place& place, RunRecord& record, Watch& watch) {
+  const Request& request = asked.request;
+  Domain domain = read_domain(request, asked.given, watch);
+  record_domain(record, request, domain);
+  Triangulated triangulated = triangulate_domain(request, domain, ranks_counted(place), place.cut(request), watch);
+  save_sizes(request, domain, triangulated, watch);
+  if (!triangulated.cut) return in_one_piece(asked, place, std::move(domain), std::move(triangulated), record);
+  return in_subdomains(asked, place, std::move(domain), triangulated, record, watch);
+}
+
 Order order_for(const Asked& asked, const Place& place, RunRecord& record, Watch& watch) {
   const Request& request = asked.request;
   check(request, place.kind(), asked.given.policies);
@@ -132,12 +170,10 @@ Order order_for(const Asked& asked, const Place& place, RunRecord& record, Watch
   if (place.kind() != kSimulated) check_ranks(request, place.kind(), ranks_counted(place));
   if (asked.before) asked.before();
   if (asked.by != kLibrary) cap_memory(request.limits);
-  Domain domain = read_domain(request, asked.given, watch);
-  record_domain(record, request, domain);
-  Triangulated triangulated = triangulate_domain(request, domain, ranks_counted(place), place.cut(request), watch);
-  save_sizes(request, domain, triangulated, watch);
-  if (!triangulated.cut) return in_one_piece(asked, place, std::move(domain), std::move(triangulated), record);
-  return in_subdomains(asked, place, std::move(domain), triangulated, record, watch);
+  const bool is_new = request.run.resume.empty();
+  Order order = is_new ? new_order(asked, place, record, watch) : going_on(asked, place, record, watch);
+  if (!request.run.checkpoint.empty()) order.keeping.heads = checkpoint_heads(request, record, order);
+  return order;
 }
 
 const Pslg& input_of(const Order& order) {

@@ -4,26 +4,14 @@
 
 #include "base/bytes.hpp"
 #include "distributed/exchange.hpp"
-#include "distributed/write_distributed.hpp"
 #include "job/check.hpp"
 #include "job/failure.hpp"
 #include "job/outputs.hpp"
 #include "job/rank_report.hpp"
-#include "job/write_files.hpp"
+#include "job/write_on_ranks.hpp"
 
 namespace driftmesh::job {
 namespace {
-
-/// Does work(runner) with a channel of its own. A failure on one rank ends the job.
-template <class Work>
-void exchange_on(Team& team, const Work& work) {
-  const std::unique_ptr<Channel> channel = team.open();
-  by_itself(team, [&] {
-    ExchangeRunner ranks(channel->transport());
-    work(ranks);
-  });
-  channel->close();
-}
 
 class RefinedOnRanks final : public Refined {
  public:
@@ -55,18 +43,7 @@ class RefinedOnRanks final : public Refined {
   void write(const Request::Output& files, const Draw& draw, Watch& watch) override {
     const std::vector<Point> holes = run_->holes();
     const DistributedPiece piece = take_piece(watch);
-    exchange_on(team_, [&](ExchangeRunner& ranks) {
-      timed(watch, "write", [&] {
-        write_distributed(ranks, piece, files.meshes, writing_of(files, holes, watch),
-                          [&](const std::string& path) { watch.writing(path); });
-      });
-      if (!draw) return;
-      timed(watch, "plot", [&] {
-        GatherPieces gathering(piece);
-        ranks.run(gathering);
-        if (piece.rank == Rank{0}) draw(gathering.whole());
-      });
-    });
+    write_on_ranks(team_, piece, files, holes, draw, watch);
   }
 
   [[nodiscard]] DistributedPiece take_piece(Watch& watch) override {

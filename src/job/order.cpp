@@ -42,6 +42,9 @@ Bytes head_of(const Order& order) {
   writer.text(order.sizing.tree);
   transfer_rest(writer, order);
   writer.text(order.scratch);
+  writer.text(order.keeping.checkpoint);
+  writer.value(order.keeping.every);
+  writer.text(order.keeping.resume);
   order.rasters.write(writer);
   return writer.take();
 }
@@ -53,6 +56,9 @@ Order order_from(ByteReader& head) {
   order.sizing.tree = head.text();
   transfer_rest(head, order);
   order.scratch = head.text();
+  order.keeping.checkpoint = head.text();
+  head.value(order.keeping.every);
+  order.keeping.resume = head.text();
   order.rasters = Rasters::read(head);
   return order;
 }

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "balancer/policy_interface/policy_list.hpp"
+#include "base/bytes.hpp"
 #include "driftmesh/pslg.hpp"
 #include "job/domain.hpp"
 #include "job/limits.hpp"
@@ -23,6 +25,14 @@ struct Whole {
   Triangulated triangulated;  ///< refers to the domain's size field
 };
 
+/// What outlives a run that ends before its time.
+struct Keeping {
+  std::string checkpoint{};              ///< the file where the work is kept; empty: none
+  double every = 0;                      ///< seconds between two checkpoints
+  std::string resume{};                  ///< the file with work to go on with; empty: none
+  std::map<std::string, Bytes> heads{};  ///< what a checkpoint says of the run; for rank 0 alone
+};
+
 /// What is to be refined, and how: what rank 0 sends to all ranks. It refers to nothing outside: the others
 /// make or are given a size field of their own.
 struct Order {
@@ -34,6 +44,7 @@ struct Order {
   IdVector<Rank, double> shares;  ///< fraction of its time that each rank works, for experiments; empty: all of it
   Use use;                        ///< what the mesh is for
   std::string scratch{};          ///< folder where subdomains sleep; empty: in memory
+  Keeping keeping{};              ///< of the work, if it is made in rounds
   Rasters rasters{};              ///< open; others than rank 0 open them themselves
   std::shared_ptr<const SizeField> size{};  ///< what the domain was cut for; for this process alone
   std::shared_ptr<const TimeStep> step{};   ///< what triangles are to allow; others than rank 0 make it themselves

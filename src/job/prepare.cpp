@@ -137,6 +137,13 @@ Decomposition cut(const Request& request, const Triangulated& triangulated, std:
   return decompose_for(triangulated.mesh, cutting, ranks);
 }
 
+void plan_anew(RunPlan& plan, const Request& request, PlaceKind place, const IdVector<Rank, double>& speeds) {
+  const PlanOptions options = plan_options(request, place, speeds);
+  plan.work = options.work;
+  plan.balancing = options.balancing;
+  prepare_balancing(plan, options.mapping.ranks, policies_of({}, place, speeds.size()));
+}
+
 Prepared prepare(const Request& request, const Domain& domain, const Triangulated& triangulated, const Given& given,
                  PlaceKind place, const IdVector<Rank, double>& speeds, Watch& watch) {
   Prepared prepared;

@@ -27,6 +27,9 @@ struct Prepared {
 [[nodiscard]] Prepared prepare(const Request& request, const Domain& domain, const Triangulated& triangulated,
                                const Given& given, PlaceKind place, const IdVector<Rank, double>& speeds, Watch& watch);
 
+/// Gives a plan that was made before what the request says of work and balancing, at this place.
+void plan_anew(RunPlan& plan, const Request& request, PlaceKind place, const IdVector<Rank, double>& speeds);
+
 /// Decomposes the domain as requested, for this number of ranks.
 [[nodiscard]] Decomposition cut(const Request& request, const Triangulated& triangulated, std::int32_t ranks);
 

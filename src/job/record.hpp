@@ -14,6 +14,13 @@
 
 namespace driftmesh::job {
 
+/// The checkpoints that a run has written.
+struct CheckpointRecord {
+  std::int64_t count = 0;
+  double seconds = 0;       ///< for all of them
+  std::uint64_t bytes = 0;  ///< of the last one
+};
+
 /// All facts about the generation of one mesh, for its summary and its JSON file. Times are in seconds, memory in
 /// bytes, angles in degrees.
 struct RunRecord : MeshFacts {
@@ -57,6 +64,7 @@ struct RunRecord : MeshFacts {
   int rounds = 0;           ///< number that threads took (see runtime/threads)
   std::int32_t subdomains = 0;
   bool presplit = false;
+  CheckpointRecord checkpoints;
 
   [[nodiscard]] double triangles_per_second() const {
     return seconds_refine > 0 ? static_cast<double>(triangles) / seconds_refine : 0;

@@ -27,6 +27,7 @@ enum class ClusterKind {
 /// How subdomains agree on the points between them.
 enum class Method {
   kCoupled,    ///< they tell each other what they insert
+  kRounds,     ///< each refines by itself for a round, and then all tell each other: no mesh depends on ranks or time
   kDecoupled,  ///< all points are made beforehand; a run that needs more fails
   kPdr,        ///< there are none between subdomains: ranks refine one mesh, cell by cell
 };
@@ -145,6 +146,9 @@ struct Request {
     bool sleep = false;
     std::string scratch;       ///< a folder on disk for sleeping subdomains; empty: they sleep in memory
     std::int32_t threads = 0;  ///< 0: one for each core
+    std::string checkpoint;    ///< the file that the state of the work is kept in; empty: none
+    double every = 600;        ///< seconds between two of these
+    std::string resume;        ///< the file of a run to go on with; empty: none
   } run;
 
   struct Balance {

@@ -1,19 +1,64 @@
 #include "job/rounds_on_ranks.hpp"
 
 #include <utility>
+#include <vector>
 
+#include "base/bytes.hpp"
 #include "job/domain.hpp"
+#include "job/rank_report.hpp"
 #include "job/same_on_ranks.hpp"
 #include "job/thread_run.hpp"
+#include "job/with_ranks.hpp"
+#include "job/write_on_ranks.hpp"
 
 namespace driftmesh::job {
+namespace {
+
+class RefinedInRounds final : public Refined {
+ public:
+  RefinedInRounds(Team& team, Ranks& ranks, std::unique_ptr<ThreadRun> run)
+      : team_(team), ranks_(ranks), run_(std::move(run)) {}
+
+  void report(RunRecord& record) override {
+    ByteWriter writer;
+    by_itself(team_, [&] { run_->rank_report().write(writer); });
+    for (const Bytes& bytes : team_.gather(writer.take())) {
+      ByteReader reader(bytes);
+      add_report(record, RankReport::read(reader));
+    }
+    record.rounds = run_->rounds();
+    record.checkpoints = run_->checkpoints();
+    if (team_.leads()) add_plan(record, *run_->plan());
+  }
+
+  [[nodiscard]] const RunPlan* plan() const override { return run_->plan(); }
+
+  void write(const Request::Output& files, const Draw& draw, Watch& watch) override {
+    const std::vector<Point> holes = run_->holes();
+    const DistributedPiece piece = take_piece(watch);
+    write_on_ranks(team_, piece, files, holes, draw, watch);
+  }
+
+  [[nodiscard]] DistributedPiece take_piece(Watch& watch) override {
+    return together(team_, ranks_, [&] { return run_->take_piece(watch); });
+  }
+
+  [[nodiscard]] LiveMesh take_live() override { return run_->take_live(); }
+
+ private:
+  Team& team_;
+  Ranks& ranks_;
+  std::unique_ptr<ThreadRun> run_;
+};
+
+}  // namespace
 
 IdVector<Rank, double> RoundsOnRanks::speeds(const Request& /*request*/) const {
   return IdVector<Rank, double>(to_index(ranks()), 1.0);
 }
 
 Order RoundsOnRanks::share(const std::function<Order()>& make) {
-  return job::share(team_, [&] {
+  return OnRanks::share([&] {
     Order order = make();
     order.plan.balancing.policy = "none";  // subdomains stay where they are during a round
     order.plan.policy.reset();
@@ -24,13 +69,18 @@ Order RoundsOnRanks::share(const std::function<Order()>& make) {
 
 std::unique_ptr<Refined> RoundsOnRanks::refine(Order&& order, const Limits& limits, const SizeField* size,
                                                Watch& watch) {
-  ranks_.agree([&] {
-    if (order.size == nullptr) order.size = size_of(order.sizing, order.rasters.open, size, order.pslg).field;
+  return together(team(), ranks_, [&] {
+    ranks_.agree([&] {
+      if (order.size == nullptr) order.size = size_of(order.sizing, order.rasters.open, size, order.pslg).field;
+    });
+    ranks_.alike([&] {
+      if (order.size != nullptr) require_same_size(team(), order.plan.decomposition, *order.size);
+    });
+    if (order.use.by == kMesh) reuse_memory(order.limits);
+    auto run = std::make_unique<ThreadRun>(std::move(order), limits, threads_, watch, &ranks_);
+    run->refine();
+    return std::make_unique<RefinedInRounds>(team(), ranks_, std::move(run));
   });
-  if (order.size != nullptr) require_same_size(team_, order.plan.decomposition, *order.size);
-  auto run = std::make_unique<ThreadRun>(std::move(order), limits, threads_, watch, &ranks_);
-  run->refine();
-  return run;
 }
 
 }  // namespace driftmesh::job

@@ -6,8 +6,8 @@
 #include "base/in_parts.hpp"
 #include "base/key_error.hpp"
 #include "distributed/assembly.hpp"
-#include "distributed/exchange.hpp"
 #include "distributed/held_subdomains.hpp"
+#include "distributed/parts_file.hpp"
 #include "distributed/piece_series.hpp"
 #include "distributed/write_distributed.hpp"
 #include "driftmesh/error.hpp"
@@ -62,8 +62,39 @@ void ThreadRun::refine() {
     watch.finished = [this](const Subdomain& subdomain, const SizeField* size) { note(subdomain, size); };
   std::optional<HeldOnRanks> others;
   if (ranks_ != nullptr) others.emplace(HeldOnRanks{*ranks_, holders_});
+  if (!order_.keeping.checkpoint.empty()) keep(watch);
   refinement_.emplace(order_.plan, sizes_, std::move(watch), others);
+  if (!order_.keeping.resume.empty()) ranks().agree([this] { take_up(); });
   refinement_->run();
+  if (checkpoints_) kept_ = checkpoints_->record();
+  checkpoints_.reset();
+}
+
+void ThreadRun::keep(RefinementInRounds::Watch& watch) {
+  checkpoints_.emplace(
+      Checkpoints::Rules{.path = order_.keeping.checkpoint,
+                         .every = order_.keeping.every,
+                         .fence_every = std::min(1.0, order_.keeping.every),
+                         .subdomains = order_.plan.decomposition.size()},
+      ranks(), [this] { return order_.keeping.heads; }, [this](std::int64_t made) { check_number(limits_, made); },
+      watch_);
+  watch.halts = [this] { return checkpoints_->halts(); };
+  watch.fence = [this](bool rests) { return checkpoints_->fence(rests, *refinement_); };
+  watch.check = [this](std::int64_t made) {
+    try {
+      check_limits(limits_, made);
+    } catch (const LimitError&) {
+      checkpoints_->end_for(std::current_exception());
+    }
+  };
+}
+
+void ThreadRun::take_up() {
+  const PartsFile file(order_.keeping.resume, kCheckpointFile);
+  file.understand([&] {
+    for (const SubdomainId s : ids_of(order_.plan.owners))
+      if (ranks_ == nullptr || holders_[s] == ranks_->rank()) refinement_->take_up(s, file.part(s));
+  });
 }
 
 void ThreadRun::report(RunRecord& run) {
@@ -74,8 +105,22 @@ void ThreadRun::report(RunRecord& run) {
   }
   run.on_threads = true;
   run.rounds = refinement_->rounds();
+  run.checkpoints = kept_;
   run.peak = run.peak_refining = peak_memory();
   add_plan(run, order_.plan);
+}
+
+RankReport ThreadRun::rank_report() {
+  RankReport report{{}, facts()};
+  const auto outcomes = refinement_->outcomes();
+  report.rank.times = outcomes.front().times;
+  for (const RankOutcome& outcome : outcomes) {
+    report.rank.triangles += outcome.triangles;
+    report.rank.subdomains += outcome.subdomains;
+    report.rank.interface_splits += outcome.interface_splits;
+  }
+  report.rank.peak = peak_memory();
+  return report;
 }
 
 void ThreadRun::note(const Subdomain& subdomain, const SizeField* size) {
@@ -125,10 +170,10 @@ void ThreadRun::write_pieces(const std::string& path, const WriteOptions& option
     write_series(path, series.size(), sizes_.size(), make);
 }
 
-DistributedPiece ThreadRun::assemble() const {
-  PieceAssembly assembly(Rank{0}, 1, order_.plan.decomposition, held_by_rank(refinement_->subdomains()), census());
-  const IdVector<Rank, Exchange*> alone{&assembly};
-  exchange_directly(alone);
+DistributedPiece ThreadRun::assemble() {
+  PieceAssembly assembly(ranks().rank(), ranks().ranks(), order_.plan.decomposition,
+                         held_by_rank(refinement_->subdomains()), census());
+  ranks().run(assembly);
   DistributedPiece piece = assembly.piece(order_.pslg);
   set_point_data(order_.rasters, piece.mesh);
   return piece;

@@ -9,10 +9,12 @@
 #include "distributed/ranks.hpp"
 #include "driftmesh/distributed_piece.hpp"
 #include "driftmesh/files.hpp"
+#include "job/checkpoints.hpp"
 #include "job/facts_book.hpp"
 #include "job/limits.hpp"
 #include "job/order.hpp"
 #include "job/place.hpp"
+#include "job/rank_report.hpp"
 #include "job/record.hpp"
 #include "job/watch.hpp"
 #include "runtime/threads/refinement_in_rounds.hpp"
@@ -24,17 +26,23 @@ namespace driftmesh::job {
 class ThreadRun final : public Refined {
  public:
   /// `order`: its plan maps the subdomains to `threads` ranks; or to `ranks`, if not null, which refine them together
-  /// and of which each has `threads` threads. With them, refine() and take_live() are collective, and only these give
-  /// anything. `watch` and `ranks` outlive the object.
+  /// and of which each has `threads` threads. With them, refine(), take_piece() and take_live() are collective, and
+  /// write() and report() are for those that know of them. `watch` and `ranks` outlive the object.
   ThreadRun(Order order, const Limits& limits, std::int32_t threads, Watch& watch, Ranks* ranks = nullptr);
   ~ThreadRun() override;
 
-  /// Throws what the work on a subdomain or the watch throws, and LimitError at a limit.
+  /// Throws what the work on a subdomain or the watch throws, and LimitError at a limit. With checkpoints, one is left
+  /// then (see Checkpoints).
   void refine();
 
   // After refine():
 
   void report(RunRecord& record) override;
+  /// What this process did, its threads as one.
+  [[nodiscard]] RankReport rank_report();
+  [[nodiscard]] int rounds() const { return refinement_->rounds(); }
+  [[nodiscard]] const CheckpointRecord& checkpoints() const { return kept_; }
+  [[nodiscard]] const std::vector<Point>& holes() const { return order_.pslg.holes; }
   [[nodiscard]] const RunPlan* plan() const override { return &order_.plan; }
   void write(const Request::Output& files, const Draw& draw, Watch& watch) override;
   [[nodiscard]] DistributedPiece take_piece(Watch& watch) override;
@@ -43,10 +51,15 @@ class ThreadRun final : public Refined {
  private:
   /// Frees the subdomains and what they need.
   void release();
+  /// Has checkpoints made at fences.
+  void keep(RefinementInRounds::Watch& watch);
+  /// Goes on with what a checkpoint has of subdomains that are here.
+  void take_up();
   void note(const Subdomain& subdomain, const SizeField* size);
   [[nodiscard]] MeshFacts facts();
   [[nodiscard]] std::vector<SubdomainCensus> census() const;
-  [[nodiscard]] DistributedPiece assemble() const;
+  [[nodiscard]] DistributedPiece assemble();
+  [[nodiscard]] Ranks& ranks() { return ranks_ != nullptr ? *ranks_ : alone_; }
   void write_pieces(const std::string& path, const WriteOptions& options) const;
 
   Order order_;
@@ -58,6 +71,9 @@ class ThreadRun final : public Refined {
   std::unique_ptr<ScratchFile> scratch_;  // if subdomains sleep on disk
   FactsBook book_;
   std::optional<RefinementInRounds> refinement_;
+  OneRank alone_;
+  std::optional<Checkpoints> checkpoints_;  // meanwhile
+  CheckpointRecord kept_;
 };
 
 }  // namespace driftmesh::job

@@ -135,7 +135,7 @@ Json parts_json(const RunRecord& run) {
                      {"held", r.counters.held},
                      {"peak_bytes", r.peak}});
   Json parts = {{"subdomains", run.subdomains}, {"presplit", run.presplit}, {"ranks", ranks}};
-  if (run.on_threads) parts["rounds"] = run.rounds;
+  if (run.rounds > 0) parts["rounds"] = run.rounds;
   return parts;
 }
 
@@ -161,6 +161,9 @@ std::string run_json(const RunRecord& run) {
                  {"files", files_json(run)}};
   if (run.request.sizing.courant_step > 0 && run.triangles > 0) record["time_step"] = step_json(run);
   if (!run.ranks.empty()) record["parts"] = parts_json(run);
+  if (run.checkpoints.count > 0)
+    record["checkpoints"] = {
+        {"count", run.checkpoints.count}, {"seconds", run.checkpoints.seconds}, {"bytes", run.checkpoints.bytes}};
   return json_text(record, 2);
 }
 

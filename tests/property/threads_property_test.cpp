@@ -1,9 +1,13 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <cstdio>
+#include <exception>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <random>
 #include <stdexcept>
@@ -16,6 +20,7 @@
 #include "decompose/decompose.hpp"
 #include "distributed/assembly.hpp"
 #include "distributed/held_subdomains.hpp"
+#include "distributed/ranks.hpp"
 #include "driftmesh/error.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
@@ -44,7 +49,7 @@ namespace {
 struct Outcome {
   std::uint64_t digest = 0;
   std::int64_t triangles = 0, moves = 0, splits = 0, asleep = 0;
-  int rounds = 0;
+  int rounds = 0, stops = 0;
 };
 
 PlanOptions options_for(std::int32_t threads, std::int64_t slice, Presplit presplit) {
@@ -119,6 +124,42 @@ class Case {
     return outcome;
   }
 
+  /// By one to three processes, which are threads here, with one to three threads each, stopped at random fences;
+  /// others go on each time with what was packed there.
+  [[nodiscard]] Outcome by_some_after_others(std::mt19937_64& random, Presplit presplit, bool sleep) const {
+    Kept kept;
+    Outcome outcome;
+    for (bool done = false; !done; ++outcome.stops)
+      done = by_processes(static_cast<std::int32_t>(1 + random() % 3), static_cast<std::int32_t>(1 + random() % 3),
+                          random() % 4, random(), presplit, sleep, kept, outcome);
+    --outcome.stops;
+    return outcome;
+  }
+
+  void check_refusals() const {
+    const RunPlan plan = plan_run(decomposition_, bounds_, options_for(1, slice_, Presplit::kOff));
+    const std::vector<const SizeField*> sizes{bounds_.size};
+    Bytes kept;
+    RefinementInRounds* refinement = nullptr;
+    RefinementInRounds made(plan, sizes,
+                            {.halts = [] { return true; },
+                             .fence =
+                                 [&](bool rests) {
+                                   kept = refinement->halted(SubdomainId{0});
+                                   return rests;
+                                 }});
+    refinement = &made;
+    made.run();
+    REQUIRE(!kept.empty());
+    RefinementInRounds other(plan, sizes, {});
+    CHECK_NOTHROW(other.take_up(SubdomainId{0}, kept));
+    CHECK_THROWS_AS(other.take_up(SubdomainId{1}, kept), Error);
+    kept[kept.size() / 2] ^= std::byte{1};
+    CHECK_THROWS_AS(other.take_up(SubdomainId{0}, kept), Error);
+    kept.resize(kept.size() / 2);
+    CHECK_THROWS_AS(other.take_up(SubdomainId{0}, kept), Error);
+  }
+
   /// By ranks that have crews, as real ones do, but in this process.
   [[nodiscard]] Outcome by_crews(std::int32_t ranks, std::size_t crew, Presplit presplit) const {
     const RunPlan plan = plan_run(decomposition_, bounds_, options_for(ranks, slice_, presplit), balancer::make_policy);
@@ -144,6 +185,72 @@ class Case {
   }
 
  private:
+  using Kept = std::map<SubdomainId, Bytes>;
+  struct Stopped : std::exception {};
+
+  /// Goes on with what was kept up to fence `last`, if refinement does not end before. Returns whether it did.
+  [[nodiscard]] bool by_processes(std::int32_t processes, std::int32_t threads, std::uint64_t last, std::uint64_t seed,
+                                  Presplit presplit, bool sleep, Kept& kept, Outcome& outcome) const {
+    const Kept before = std::exchange(kept, {});
+    PlanOptions options = options_for(threads, slice_, presplit);
+    options.work.sleep = sleep;
+    const RunPlan plan = plan_run(decomposition_, bounds_, options, balancer::make_policy);
+    std::mt19937_64 random(seed);
+    IdVector<SubdomainId, Rank> holders;
+    for (std::size_t i = 0; i < decomposition_.size(); ++i)
+      holders.push_back(static_cast<Rank>(random() % static_cast<std::uint64_t>(processes)));
+    protocol::ThreadNetwork network(processes);
+    std::mutex alone;
+    std::map<SubdomainId, Subdomain> all;
+    IdVector<Rank, RunPlan> plans(to_index(processes), plan);
+    IdVector<Rank, std::unique_ptr<RefinementInRounds>> refinements(to_index(processes));
+    std::atomic<int> stopped = 0;
+    const auto work_on = [&](Rank r) {
+      RanksOfTransport ranks(network.transport(r));
+      deal_to_threads(plans[r], threads, [&](SubdomainId s) { return holders[s] == r; });
+      std::mt19937_64 own(seed + static_cast<std::uint64_t>(to_int(r)));
+      std::atomic<int> steps = static_cast<int>(own() % 30);
+      std::uint64_t fences = 0;
+      RefinementInRounds::Watch watch;
+      watch.halts = [&] { return --steps <= 0; };
+      watch.fence = [&](bool rests) {
+        steps = static_cast<int>(own() % 30);
+        ByteWriter letter;
+        letter.value(static_cast<std::uint8_t>(rests ? 1 : 0));
+        bool over = true;
+        for (const Bytes& from : ranks.bytes_of_all(letter.take()))
+          over = over && ByteReader(from).value<std::uint8_t>() == 1;
+        if (fences++ < last) return over;
+        const std::lock_guard lock(alone);
+        for (const SubdomainId s : refinements[r]->here()) kept[s] = refinements[r]->halted(s);
+        throw Stopped();
+      };
+      const std::vector<const SizeField*> sizes(static_cast<std::size_t>(threads), bounds_.size);
+      refinements[r] = std::make_unique<RefinementInRounds>(plans[r], sizes, watch, HeldOnRanks{ranks, holders});
+      for (const auto& [s, bytes] : before)
+        if (holders[s] == r) refinements[r]->take_up(s, bytes);
+      try {
+        refinements[r]->run();
+        outcome.rounds = std::max(outcome.rounds, refinements[r]->rounds());
+      } catch (const Stopped&) {
+        ++stopped;
+      }
+    };
+    std::vector<std::thread> others;
+    for (const Rank r : first_ids<Rank>(processes)) others.emplace_back([&, r] { work_on(r); });
+    for (std::thread& other : others) other.join();
+    if (stopped > 0) {
+      CHECK(stopped == processes);
+      CHECK(kept.size() == decomposition_.size());
+      return false;
+    }
+    for (const auto& refinement : refinements) all.merge(refinement->subdomains());
+    check_mesh(all, presplit);
+    for (const auto& [id, subdomain] : all)
+      outcome.digest += mesh_digest(subdomain.dormant() ? subdomain.woken().mesh : subdomain.mesh().mesh);
+    return true;
+  }
+
   struct CrewedRank {
     RunPlan plan;
     std::optional<ThreadCrew> crew;
@@ -200,6 +307,33 @@ TEST_CASE("any number of threads makes the mesh that one makes, also of subdomai
   CHECK(moves > 50);
   CHECK(later_rounds > 10);
   CHECK(asleep > 100);
+}
+
+TEST_CASE("a run that is stopped at fences and gone on with by others makes the same mesh") {
+  std::mt19937_64 random = seeded_generator("fences");
+  std::int64_t stops = 0, later_rounds = 0;
+  for (std::int64_t i = 0; more_cases(i, 60, stops > 100 && later_rounds > 10); ++i) {
+    CAPTURE(i);
+    const Case c(random);
+    const Outcome whole = c.by_threads(1, Presplit::kOff);
+    const bool sleep = i % 3 == 0;
+    const Outcome made = c.by_some_after_others(random, Presplit::kOff, sleep);
+    CHECK(made.digest == whole.digest);
+    CHECK(made.rounds == whole.rounds);
+    stops += made.stops;
+    later_rounds += whole.rounds - 1;
+    if (i % 4 == 0)
+      CHECK(c.by_some_after_others(random, Presplit::kAuto, sleep).digest == c.by_threads(1, Presplit::kAuto).digest);
+  }
+  std::printf("%lld stops, %lld later rounds\n", static_cast<long long>(stops), static_cast<long long>(later_rounds));
+  CHECK(stops > 100);
+  CHECK(later_rounds > 10);
+}
+
+TEST_CASE("what was kept of another plan, or is damaged, is refused") {
+  std::mt19937_64 random = seeded_generator("fences");
+  const Case c(random);
+  c.check_refusals();
 }
 
 TEST_CASE("crews help their ranks, and where no interface is split by refinement the mesh does not tell") {

@@ -1,7 +1,6 @@
 #include "driftmesh/mpi/adaptive.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <functional>
 #include <string>
 #include <utility>
@@ -11,29 +10,12 @@
 #include "api/mpi/place_by_zoltan.hpp"
 #include "api/mpi/with_team.hpp"
 #include "base/formatted.hpp"
-#include "distributed/ranks.hpp"
 #include "job/rounds_on_ranks.hpp"
 #include "job/same_on_ranks.hpp"
+#include "job/with_ranks.hpp"
 
 namespace driftmesh {
 namespace {
-
-/// Does work(ranks) with the ranks of a team. What all of them throw together is thrown; what fails on one alone ends
-/// the job, since the others wait for it.
-template <class Work>
-void with_ranks(job::Team& team, const Work& work) {
-  const std::unique_ptr<job::Channel> channel = team.open();
-  RanksOfTransport ranks(channel->transport());
-  std::exception_ptr failure;
-  try {
-    work(ranks);
-  } catch (const std::exception&) {
-    if (!ranks.have_failed_together()) job::fail_alone(team);
-    failure = std::current_exception();
-  }
-  channel->close();
-  if (failure) std::rethrow_exception(failure);
-}
 
 std::vector<job::RankSetting> settings_of(const AdaptiveOptions& options) {
   const auto setting = [](const char* name, double value) {
@@ -56,7 +38,7 @@ struct DistributedAdaptiveMesh::Impl {
   void together(const Work& work) {
     core.require_rest();
     static_cast<void>(with_team(communicator, [&](job::Team& team) {
-      with_ranks(team, work);
+      job::with_ranks(team, work);
       return true;
     }));
   }
@@ -80,7 +62,7 @@ DistributedAdaptiveMesh::DistributedAdaptiveMesh(MPI_Comm communicator, const Ps
       std::vector<job::RankSetting> settings = settings_of(options, call.request());
       for (job::RankSetting& setting : settings_of(adaptive)) settings.push_back(std::move(setting));
       job::require_same(team, settings);
-      with_ranks(team, [&](Ranks& ranks) {
+      job::with_ranks(team, [&](Ranks& ranks) {
         job::RoundsOnRanks place(team, ranks, impl_->core.threads());
         impl_->core.begin(call, place, adaptive, ranks, [](Mesh&) {});
       });
@@ -100,7 +82,7 @@ DistributedAdaptiveMesh DistributedAdaptiveMesh::load(MPI_Comm communicator, con
     std::vector<job::RankSetting> settings = settings_of(options, request_of(options));
     settings.push_back({"the path", path});
     job::require_same(team, settings);
-    with_ranks(team, [&](Ranks& ranks) { impl->core.resume(path, job::processes_of(team), ranks, [](Mesh&) {}); });
+    job::with_ranks(team, [&](Ranks& ranks) { impl->core.resume(path, job::processes_of(team), ranks, [](Mesh&) {}); });
     return true;
   }));
   return DistributedAdaptiveMesh(std::move(impl));

@@ -63,7 +63,7 @@ class RefinementInRounds::ToldLater final : public Coupling {
   std::vector<Told>& told_;
 };
 
-/// One round, with a loop for each thread.
+/// One round, or a part of it between two fences, with a loop for each thread.
 class RefinementInRounds::Round {
  public:
   Round(RefinementInRounds& all, LoopPlan plan)
@@ -78,6 +78,7 @@ class RefinementInRounds::Round {
       else
         rank.coupling = std::make_unique<ToldLater>(all.plan_.decomposition, rank.told);
       rank.loop.emplace(network_.transport(r), plan_, all.held_[r], *rank.coupling, CostModel{}, observers(r));
+      rank.triangles = rank.loop->triangles();
     }
   }
 
@@ -96,13 +97,11 @@ class RefinementInRounds::Round {
       if (rank.failure) std::rethrow_exception(rank.failure);
   }
 
-  /// What is told across borders, each once, in an order that does not depend on who said it.
-  [[nodiscard]] std::vector<Told> told() const {
-    std::vector<Told> all;
-    for (const OneRank& rank : ranks_) all.insert(all.end(), rank.told.begin(), rank.told.end());
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-    return all;
+  /// Adds what is to be told across borders, by who has put it there.
+  void add_told(std::map<SubdomainId, std::vector<Told>>& all) const {
+    const Decomposition& d = all_.plan_.decomposition;
+    for (const OneRank& rank : ranks_)
+      for (const Told& t : rank.told) all[d.roots[t.split.root].across_from(t.to)].push_back(t);
   }
 
   [[nodiscard]] RankOutcome outcome(Rank r) const { return ranks_[r].loop->outcome(); }
@@ -132,7 +131,13 @@ class RefinementInRounds::Round {
     if (failed_) return protocol::StepResult::kFinished;
     const protocol::StepResult result = ranks_[r].loop->step();
     if (r == kCalling && all_.watch_.progress) show_progress();
+    if (result != protocol::StepResult::kFinished && all_.watch_.halts && all_.watch_.halts()) halt(*ranks_[r].loop);
     return result;
+  }
+
+  /// Gives up, for now: what is under way arrives, and nobody works anymore.
+  static void halt(RankLoop& loop) {
+    if (loop.protocol().phase() == protocol::Termination::Phase::kWorking) loop.abandon();
   }
 
   void show_progress() {
@@ -195,22 +200,98 @@ RefinementInRounds::~RefinementInRounds() = default;
 
 void RefinementInRounds::run() {
   for (bool all_told = false; !all_told;) {
-    std::vector<Told> told;
-    if (others_)
-      others_->ranks.agree([&] { told = refine_for_a_round(); });
-    else
-      told = refine_for_a_round();
-    all_told = !tell_neighbors(std::move(told));
+    refine_for_a_round();
+    all_told = !tell_neighbors(take_told());
   }
   for (Subdomains& held : held_) subdomains_.merge(held.take());
 }
 
-std::vector<RefinementInRounds::Told> RefinementInRounds::refine_for_a_round() {
-  Round round(*this, present_plan());
+void RefinementInRounds::refine_for_a_round() {
   ++rounds_;
+  for (bool over = false; !over;) {
+    if (others_)
+      others_->ranks.agree([&] { refine_until_fence(); });
+    else
+      refine_until_fence();
+    over = !watch_.fence || watch_.fence(rests());
+  }
+}
+
+/// Each point once, in an order that does not depend on who put it there.
+std::vector<RefinementInRounds::Told> RefinementInRounds::take_told() {
+  std::vector<Told> all;
+  for (const auto& one : std::exchange(told_, {})) all.insert(all.end(), one.second.begin(), one.second.end());
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+void RefinementInRounds::refine_until_fence() {
+  Round round(*this, present_plan());
+  begun_ = true;
   round.run();
   for (const Rank r : ids_of(outcomes_)) add(outcomes_[r], round.outcome(r));
-  return round.told();
+  round.add_told(told_);
+}
+
+bool RefinementInRounds::rests() const {
+  return std::ranges::none_of(held_, [](const Subdomains& held) {
+    return std::ranges::any_of(held.all(), [](const auto& one) { return one.second.active(); });
+  });
+}
+
+std::vector<SubdomainId> RefinementInRounds::here() const {
+  std::vector<SubdomainId> all;
+  for (const Subdomains& held : held_)
+    for (const auto& one : held.all()) all.push_back(one.first);
+  std::ranges::sort(all);
+  return all;
+}
+
+const Subdomain& RefinementInRounds::at(SubdomainId s) const {
+  for (const Subdomains& held : held_)
+    if (const auto found = held.all().find(s); found != held.all().end()) return found->second;
+  throw Error("subdomain " + to_string(s) + " is not here");
+}
+
+std::int64_t RefinementInRounds::triangles() const {
+  std::int64_t sum = 0;
+  for (const Subdomains& held : held_)
+    for (const auto& one : held.all()) sum += one.second.triangles();
+  return sum;
+}
+
+Bytes RefinementInRounds::halted(SubdomainId s) const {
+  ByteWriter writer;
+  writer.number(static_cast<std::int32_t>(rounds_));
+  writer.array(at(s).pack_small());
+  if (const auto found = told_.find(s); found != told_.end())
+    for (const Told& t : found->second) {
+      writer.value(t.split.root);
+      writer.value(t.split.path);
+    }
+  return writer.take();
+}
+
+void RefinementInRounds::take_up(SubdomainId s, std::span<const std::byte> halted) {
+  ByteReader reader(halted);
+  rounds_ = reader.number<std::int32_t>() - 1;
+  Bytes packed;
+  reader.array(packed);
+  const Rank owner = plan_.owners[s];
+  Subdomain subdomain = Subdomain::unpack(packed, contexts_[owner]);
+  if (subdomain.id() != s) throw Error("subdomain " + to_string(s) + " is another one");
+  held_[owner].put(std::move(subdomain));
+  const auto& roots = plan_.decomposition.roots;
+  while (!reader.at_end()) {
+    SplitPoint<GlobalRootId> split;
+    reader.value(split.root);
+    reader.value(split.path);
+    if (!roots.has(split.root) || !roots[split.root].is_interface())
+      throw Error("subdomain " + to_string(s) + " has a point on a border that does not exist");
+    told_[s].push_back({roots[split.root].across_from(s), split});
+  }
+  begun_ = true;
 }
 
 /// False if nobody had anything to tell.
@@ -272,7 +353,7 @@ std::vector<RefinementInRounds::Told> RefinementInRounds::swap_with_ranks(const 
 /// The plan from where the subdomains are now, with the work that is left.
 LoopPlan RefinementInRounds::present_plan() const {
   LoopPlan plan = static_cast<const LoopPlan&>(plan_);
-  if (rounds_ == 0) return plan;
+  if (!begun_) return plan;
   auto layout = plan.layout ? std::make_shared<balancer::Layout>(*plan.layout) : nullptr;
   for (const Rank r : ids_of(held_))
     for (const auto& [id, subdomain] : held_[r].all()) {

@@ -44,6 +44,13 @@ class RefinementInRounds {
     std::function<void(std::int64_t triangles)> progress{};
     /// Called by each thread after a slice of work, at the same time as others.
     std::function<void(std::int64_t triangles)> check{};
+    /// Called by each thread between two slices, at the same time as others: whether this process is to come to a
+    /// fence.
+    std::function<bool()> halts{};
+    /// Called at a fence by the calling thread, while nobody works and nothing is under way, with whether the
+    /// subdomains of this process have nothing left to do in this round. Returns whether those of no process have. With
+    /// others collective: no process goes on before all have come to the fence. Empty: a round has no fences.
+    std::function<bool(bool rests)> fence{};
     /// Called after a round with the triangles of all processes, if there are several.
     std::function<void(std::int64_t triangles)> check_all{};
     /// Called by a thread, which has that field of `sizes`, when a subdomain has nothing to do, for now.
@@ -61,9 +68,21 @@ class RefinementInRounds {
   RefinementInRounds(const RefinementInRounds&) = delete;
   RefinementInRounds& operator=(const RefinementInRounds&) = delete;
 
+  /// Before run(), to go on from a fence of another run of the same plan, on any number of processes and threads: what
+  /// halted() gave there of a subdomain that is here now. Throws Error for other bytes.
+  void take_up(SubdomainId s, std::span<const std::byte> halted);
+
   /// Refines until all bounds are met. Throws what the first thread to fail throws, on all ranks; then the mesh is
   /// incomplete.
   void run();
+
+  // At a fence:
+
+  /// The subdomains here, ascending.
+  [[nodiscard]] std::vector<SubdomainId> here() const;
+  /// A subdomain and what it has to tell after this round, as bytes.
+  [[nodiscard]] Bytes halted(SubdomainId s) const;
+  [[nodiscard]] std::int64_t triangles() const;
 
   // After run():
 
@@ -72,6 +91,7 @@ class RefinementInRounds {
   /// The same, to be taken apart.
   [[nodiscard]] std::map<SubdomainId, Subdomain>& subdomains() { return subdomains_; }
   [[nodiscard]] IdSpan<Rank, const RankOutcome> outcomes() const { return outcomes_; }
+  /// The number of rounds, and of the present one meanwhile.
   [[nodiscard]] int rounds() const { return rounds_; }
 
  private:
@@ -80,7 +100,11 @@ class RefinementInRounds {
   class Round;
 
   [[nodiscard]] LoopPlan present_plan() const;
-  [[nodiscard]] std::vector<Told> refine_for_a_round();
+  void refine_for_a_round();
+  void refine_until_fence();
+  [[nodiscard]] bool rests() const;
+  [[nodiscard]] const Subdomain& at(SubdomainId s) const;
+  [[nodiscard]] std::vector<Told> take_told();
   [[nodiscard]] bool tell_neighbors(std::vector<Told> told);
   [[nodiscard]] std::vector<Told> swap_with_ranks(const std::vector<Told>& told);
   [[nodiscard]] bool is_here(SubdomainId s) const { return !others_ || others_->holders[s] == others_->ranks.rank(); }
@@ -92,7 +116,9 @@ class RefinementInRounds {
   IdVector<Rank, Subdomains> held_;            // until all rounds are over
   std::map<SubdomainId, Subdomain> subdomains_;
   IdVector<Rank, RankOutcome> outcomes_;
+  std::map<SubdomainId, std::vector<Told>> told_;  // what each has to tell after the present round
   int rounds_ = 0;
+  bool begun_ = false;
 };
 
 }  // namespace driftmesh
