@@ -1,5 +1,6 @@
 #include "job/checkpoints.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "distributed/parts_file.hpp"
 #include "driftmesh/error.hpp"
 #include "job/fence.hpp"
+#include "job/memory.hpp"
 
 namespace driftmesh::job {
 namespace {
@@ -24,6 +26,32 @@ std::exception_ptr caught(const std::function<void()>& work) {
 std::exception_ptr told_to_end() {
   return std::make_exception_ptr(LimitError("stopped by SIGTERM before all bounds were met. No mesh was written"));
 }
+
+/// Parts of a checkpoint, which are asked first for their size and then for their bytes. Those that fit into some
+/// memory are packed once, the others twice.
+class PackedParts {
+ public:
+  explicit PackedParts(const RefinementInRounds& refinement) : refinement_(refinement) {}
+
+  [[nodiscard]] std::uint64_t size(SubdomainId s) {
+    Bytes bytes = refinement_.halted(s);
+    const std::uint64_t size = bytes.size();
+    if (size > room_) return size;
+    room_ -= size;
+    kept_.emplace(s, std::move(bytes));
+    return size;
+  }
+  [[nodiscard]] Bytes take(SubdomainId s) {
+    const auto found = kept_.find(s);
+    return found == kept_.end() ? refinement_.halted(s) : std::move(found->second);
+  }
+
+ private:
+  static constexpr std::uint64_t kMost = std::uint64_t{256} << 20;
+  const RefinementInRounds& refinement_;
+  std::uint64_t room_ = std::min(kMost, room_under_cap() / 4);
+  std::map<SubdomainId, Bytes> kept_;
+};
 
 /// What all have said.
 struct Heard {
@@ -107,15 +135,16 @@ std::string Checkpoints::save(const RefinementInRounds& refinement) {
   const Stopwatch took;
   std::map<std::string, Bytes> heads;
   std::map<SubdomainId, std::uint64_t> sizes;
+  PackedParts parts(refinement);
   std::uint64_t bytes = 0;
   const std::exception_ptr fault = caught([&] {
     ranks_.agree([&] {
       if (ranks_.rank() == Rank{0}) heads = heads_();
-      for (const SubdomainId s : refinement.here()) sizes[s] = refinement.halted(s).size();
+      for (const SubdomainId s : refinement.here()) sizes[s] = parts.size(s);
     });
     bytes = write_parts(
-        rules_.path, kCheckpointFile, heads, rules_.subdomains, sizes,
-        [&](SubdomainId s) { return refinement.halted(s); }, ranks_);
+        rules_.path, kCheckpointFile, heads, rules_.subdomains, sizes, [&](SubdomainId s) { return parts.take(s); },
+        ranks_);
   });
   NotedSignals::forget_request();
   last_save_ = clock_.seconds();

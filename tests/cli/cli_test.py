@@ -758,7 +758,7 @@ class Mesh(Cli):
 
     def test_partially_coupled_refinement_is_for_experiments(self):
         mesh = ["mesh", "--generate", "pipe", "--triangles", "5e4", "--method", "pdr", "-o", "pipe.vtu"]
-        self.refuse(*mesh, code=2, says=["--method", "must be coupled or decoupled"])
+        self.refuse(*mesh, code=2, says=["--method", "must be coupled, rounds or decoupled"])
         self.write("pdr.yaml", "method: pdr\n")
         result = self.on_ranks(2, "mesh", "--generate", "pipe", "--triangles", "5e4", "--config", "pdr.yaml", "-o", "pipe.vtu")
         self.assertEqual(result.returncode, 1, result.stderr)

@@ -81,10 +81,30 @@ TEST_CASE("contradictory values are rejected") {
   CHECK(refused(kSimulated, [](Request& r) { r.cluster.rank_speeds = {1e6, 2e6}; }) == "cluster.rank-speeds");
 }
 
+TEST_CASE("what a run in rounds cannot have is rejected, and so is what only it can have") {
+  const auto refused_in_rounds = [](PlaceKind place, auto&& change) {
+    return refused(place, [&](Request& r) {
+      r.run.method = Method::kRounds;
+      change(r);
+    });
+  };
+  CHECK(refused_in_rounds(kSimulated, [](Request& r) { r.cluster.ranks = 2; }) == "run.method");
+  CHECK(refused_in_rounds(kRanks, [](Request&) {}) == "run.method");
+  CHECK(refused_in_rounds(kSubdomains, [](Request& r) { r.decomposition.subdomains = 1; }) == "run.method");
+  CHECK(refused_in_rounds(kSubdomains, [](Request& r) { r.mapping.speeds = {1, 2}; }) == "mapping.speeds");
+  CHECK(refused_in_rounds(kSubdomains, [](Request& r) { r.run.checkpoint = "-"; }) == "run.checkpoint");
+  CHECK(refused_in_rounds(kSubdomains, [](Request& r) { r.run.every = 5; }) == "run.every");
+  CHECK(refused(kSubdomains, [](Request& r) { r.run.checkpoint = "a.kept"; }) == "run.checkpoint");
+  CHECK(refused(kSubdomains, [](Request& r) { r.run.resume = "a.kept"; }) == "run.resume");
+}
+
 TEST_CASE("the place of a mesh follows from the entry point and the request") {
   Request request;
   CHECK(place_of(request, kMesh, false) == kOnePiece);
   CHECK(place_of(request, kMesh, true) == kRanks);
+  request.run.method = Method::kRounds;
+  CHECK(place_of(request, kMesh, false) == kSubdomains);
+  request.run.method = Method::kCoupled;
   request.decomposition.subdomains = 4;
   CHECK(place_of(request, kMesh, false) == kSubdomains);
   CHECK(place_of(request, kExperiment, true) == kSimulated);
