@@ -84,7 +84,7 @@ class Completion(Cli):
         "driftmesh generate bay --r": ["--resolution", "--roughness"],
         "driftmesh mesh --ar": ["--area"],
         "driftmesh mesh --work-order ": ["backlog", "given", "largest"],
-        "driftmesh mesh --method ": ["coupled", "decoupled"],  # not what only experiments have
+        "driftmesh mesh --method ": ["coupled", "decoupled", "rounds"],  # not what only experiments have
         "driftmesh mesh --balance ": ["diffusion", "greedy", "none", "stealing", "zoltan"],
         "driftmesh mesh b": ["bay.poly", "bay.vtu"],
         "driftmesh mesh --area 5 bay.p": ["bay.poly"],
