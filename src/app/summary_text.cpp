@@ -147,16 +147,31 @@ void add_step(const RunRecord& run, Text out) {
   hint(StepCause::kBetween, "--snap");
 }
 
+/// All of the time and that of stages, without the end of the last line.
+std::string time_lines(const RunRecord& run) {
+  constexpr std::size_t kWidth = 100;
+  std::string lines = "time         " + duration_words(run.seconds);
+  const char* separator = ":";
+  std::size_t begin = 0;  // of the last line
+  for (const job::StageTime& stage : run.stages) {
+    if (stage.seconds < 0.0005) continue;
+    const std::string item = fmt::format("{} {:.3f}", stage.name, stage.seconds);
+    lines += separator;
+    if (lines.size() - begin + item.size() + 2 > kWidth) {
+      lines += '\n';
+      begin = lines.size();
+      lines += "            ";
+    }
+    lines += ' ' + item;
+    separator = ",";
+  }
+  return lines;
+}
+
 void add_work(const RunRecord& run, Text out) {
   if (run.seconds_refine > 0.02)  // below that, clock resolution dominates
     fmt::format_to(out, "refinement   {} triangles per second\n", rate_words(run.triangles_per_second()));
-  fmt::format_to(out, "time         {}", duration_words(run.seconds));
-  const char* separator = ":";
-  for (const job::StageTime& stage : run.stages) {
-    if (stage.seconds < 0.0005) continue;
-    fmt::format_to(out, "{} {} {:.3f}", separator, stage.name, stage.seconds);
-    separator = ",";
-  }
+  fmt::format_to(out, "{}", time_lines(run));
   const auto per_triangle = [&](std::uint64_t bytes) {
     return static_cast<double>(bytes) / static_cast<double>(std::max<std::int64_t>(1, run.triangles));
   };

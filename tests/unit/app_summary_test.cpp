@@ -71,6 +71,27 @@ TEST_CASE("The summary names exceptions, places and an incomplete mesh") {
     CHECK_MESSAGE(text.find(expected) != std::string::npos, expected);
 }
 
+TEST_CASE("Times of many stages take several lines, none of which is wider than a terminal") {
+  RunRecord run;
+  run.seconds = 1234.5;
+  const char* const names[] = {"read",   "repair",  "size",     "creeks",  "triangulate", "decompose", "map",
+                               "refine", "inspect", "assemble", "convert", "write",       "plot"};
+  for (const char* name : names) run.stages.push_back({name, 100.25});
+  run.stages.push_back({"nothing", 0.0001});
+  const std::string text = summary_text(run);
+  std::istringstream lines(text.substr(text.find("time  ")));
+  std::string all;
+  std::size_t count = 0;
+  for (std::string line; std::getline(lines, line) && line.find("memory") != 0; ++count) {
+    CHECK(line.size() <= 100);
+    CHECK((count == 0 || line.find_first_not_of(' ') == 13));
+    all += line + ' ';
+  }
+  CHECK(count == 3);
+  for (const char* name : names) CHECK_MESSAGE(all.find(std::string(name) + " 100.250") != std::string::npos, name);
+  CHECK(all.find("nothing") == std::string::npos);
+}
+
 TEST_CASE("The summary of a run on ranks has a row for each rank, or the extremes of many") {
   RunRecord run;
   run.subdomains = 40;
