@@ -37,7 +37,10 @@ double bed(const Point& p) {
 }
 
 driftmesh::Pslg basin() {
-  return {.points = {{0, 0}, {40, 0}, {40, 20}, {0, 20}}, .segments = {{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
+  driftmesh::Pslg rectangle;
+  rectangle.points = {{0, 0}, {40, 0}, {40, 20}, {0, 20}};
+  rectangle.segments = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  return rectangle;
 }
 
 std::size_t at(std::int32_t i) {

@@ -193,7 +193,7 @@ try {
   page.on("pageerror", (error) => problems.push(error.message));
   page.on("console", (message) => ["error", "warning", "warn"].includes(message.type()) && problems.push(message.text()));
   page.on("request", (request) => /^https?:/.test(request.url()) && problems.push(`asks for ${request.url()}`));
-  await page.goto(pathToFileURL(resolve(file("report.html"))).href);
+  await page.goto(pathToFileURL(resolve(file("report.html"))).href, { timeout: 120000 });
   await page.waitForSelector("body[data-ready=yes]", { timeout: 120000 });
   await checkRuns(page);
   await checkMesh(page);
