@@ -98,7 +98,7 @@ Tables TriangleFiles::read() {
   Tables tables;
   if (!switches_.refine && switches_.pslg) {
     Pslg pslg = read_poly(input(".poly"));
-    has_node_file_ = leaves_vertices_out(source_ + ".poly");
+    has_node_file_ = std::filesystem::exists(source_ + ".node") && leaves_vertices_out(source_ + ".poly");
     if (has_node_file_) files_.reads(source_ + ".node", "the input");
     first_number_ = pslg.first_number;
     take_segments(pslg, tables);
