@@ -19,10 +19,6 @@ std::array<std::uint64_t, 6> layout_of_memory() {
 }
 
 Bytes bytes_of(const SavedHead& head) {
-  RunPlan plan = head.plan;
-  plan.balancing.policy = "none";
-  plan.balancing.parameters.clear();
-  std::ranges::fill(plan.owners, Rank{0});
   ByteWriter writer;
   writer.value(layout_of_memory());
   writer.value(head.options);
@@ -34,7 +30,7 @@ Bytes bytes_of(const SavedHead& head) {
     writer.value(field.how);
     writer.value(std::uint64_t{field.components});
   }
-  writer.array(plan_to_bytes(plan));
+  writer.array(plan_for_file(head.plan));
   writer.array(pslg_to_bytes(head.pslg));
   writer.array(head.more);
   return writer.take();

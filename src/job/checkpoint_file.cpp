@@ -50,7 +50,7 @@ std::vector<double> samples_of(const SizeField* size, const Decomposition& decom
 /// Gives each rank neighboring subdomains with about as much work left. `ends`: of their bytes in the file.
 void deal(RunPlan& plan, const std::vector<std::uint64_t>& ends, std::int32_t ranks) {
   constexpr std::uint64_t kNotBegun = 400;  // bytes, at most
-  constexpr double kBegun = 0.05;           // of the work: nearly all that have begun have also ended
+  constexpr double kBegun = 0.05;           // a part of the work: nearly all that have begun have also ended
   std::vector<std::uint64_t> work;
   std::uint64_t end = 0, sum = 0;
   for (std::size_t i = 0; i < ends.size(); ++i) {
@@ -92,18 +92,14 @@ Request request_in(const Bytes& bytes) {
 }  // namespace
 
 std::map<std::string, Bytes> checkpoint_heads(const Request& request, const RunRecord& record, const Order& order) {
-  RunPlan plan = order.plan;
-  plan.balancing.policy = "none";
-  plan.balancing.parameters.clear();
-  std::ranges::fill(plan.owners, Rank{0});
   ByteWriter writer;
   writer.value(layout_of_memory());
   writer.value(record.acute_corners);
   writer.value(record.forecast);
   writer.text(order.rasters.projection);
   writer.value(static_cast<std::uint8_t>(order.rasters.from_lonlat ? 1 : 0));
-  writer.array(samples_of(order.size.get(), plan.decomposition));
-  writer.array(plan_to_bytes(plan));
+  writer.array(samples_of(order.size.get(), order.plan.decomposition));
+  writer.array(plan_for_file(order.plan));
   writer.array(pslg_to_bytes(order.pslg));
   return {{kSettings, settings_bytes(request)}, {kCheckpointFile.head, writer.take()}};
 }

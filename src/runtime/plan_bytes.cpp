@@ -1,5 +1,6 @@
 #include "runtime/plan_bytes.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/bytes.hpp"
@@ -137,6 +138,13 @@ Bytes plan_to_bytes(const RunPlan& plan) {
     writer.text(value);
   }
   return writer.take();
+}
+
+Bytes plan_for_file(RunPlan plan) {
+  plan.balancing.policy = "none";
+  plan.balancing.parameters.clear();
+  std::ranges::fill(plan.owners, Rank{0});
+  return plan_to_bytes(plan);
 }
 
 RunPlan plan_from_bytes(std::span<const std::byte> bytes, std::int32_t ranks, const balancer::PolicyMaker& policies) {
