@@ -20,7 +20,8 @@ struct PartOptions {
   /// Bounds on lengths and how fast they grow; most_triangles: what is made anew has no more. coarsening does not
   /// count.
   AdaptiveOptions sizes{};
-  double min_angle = defaults::kMinAngle;  ///< of new triangles, in degrees, except where the outline has smaller ones
+  double min_angle =
+      defaults::kMinAngle;  ///< new triangles have it, in degrees, except where the outline has smaller ones
   /// Names of point data (Mesh::attribute_names) whose integrals stay, as by Transfer::kConserve; all others are
   /// interpolated. None with a new outline.
   std::vector<std::string> conserve{};

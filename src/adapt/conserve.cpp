@@ -72,7 +72,7 @@ class Share {
  private:
   std::size_t size_;
   std::array<Weights, OverlapList::kMostCorners> in_old_, in_new_;  // the corners of the polygon
-  std::array<double, OverlapList::kMostCorners> areas_;             // of the triangle that ends at each
+  std::array<double, OverlapList::kMostCorners> areas_;             // those of the triangle that ends at each
 };
 
 /// What the new triangles of a subdomain overlap of those that are gone.

@@ -152,7 +152,7 @@ std::string time_lines(const RunRecord& run) {
   constexpr std::size_t kWidth = 100;
   std::string lines = "time         " + duration_words(run.seconds);
   const char* separator = ":";
-  std::size_t begin = 0;  // of the last line
+  std::size_t begin = 0;  // where the last line begins
   for (const job::StageTime& stage : run.stages) {
     if (stage.seconds < 0.0005) continue;
     const std::string item = fmt::format("{} {:.3f}", stage.name, stage.seconds);

@@ -36,7 +36,7 @@ class CutSearch {
   [[nodiscard]] bool stays_inside(std::size_t i, std::size_t j) const;
 
   const Outline* outline_ = nullptr;
-  BoxTree sides_;  // of the loop, if it has so many that not all should be looked at for each separator
+  BoxTree sides_;  // those of the loop, if it has so many that not all should be looked at for each separator
   CutGoal goal_;
   std::size_t stride_ = 1;
   std::vector<std::uint32_t> selected_;

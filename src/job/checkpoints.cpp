@@ -57,7 +57,7 @@ class PackedParts {
 struct Heard {
   std::vector<AtFence> all;
   std::int64_t triangles = 0;
-  Failure why;  ///< of the first that wants to end
+  Failure why;  ///< what the first says that wants to end
 };
 
 Heard heard(const std::vector<Bytes>& letters) {

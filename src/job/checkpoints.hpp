@@ -23,7 +23,7 @@ namespace driftmesh::job {
 class Checkpoints {
  public:
   struct Rules {
-    std::string path;        ///< of the file
+    std::string path;        ///< where the file is written
     double every = 0;        ///< seconds between two checkpoints
     double fence_every = 1;  ///< seconds between two fences, where there are several processes
     std::size_t subdomains = 0;

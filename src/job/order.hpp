@@ -44,7 +44,7 @@ struct Order {
   IdVector<Rank, double> shares;  ///< fraction of its time that each rank works, for experiments; empty: all of it
   Use use;                        ///< what the mesh is for
   std::string scratch{};          ///< folder where subdomains sleep; empty: in memory
-  Keeping keeping{};              ///< of the work, if it is made in rounds
+  Keeping keeping{};              ///< how work is kept, if it is made in rounds
   Rasters rasters{};              ///< open; others than rank 0 open them themselves
   std::shared_ptr<const SizeField> size{};  ///< what the domain was cut for; for this process alone
   std::shared_ptr<const TimeStep> step{};   ///< what triangles are to allow; others than rank 0 make it themselves

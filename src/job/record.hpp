@@ -18,7 +18,7 @@ namespace driftmesh::job {
 struct CheckpointRecord {
   std::int64_t count = 0;
   double seconds = 0;       ///< for all of them
-  std::uint64_t bytes = 0;  ///< of the last one
+  std::uint64_t bytes = 0;  ///< what the last one takes
 };
 
 /// All facts about the generation of one mesh, for its summary and its JSON file. Times are in seconds, memory in

@@ -221,10 +221,10 @@ class Builder {
   const OldPlaces& old_;
   ConstrainedEdgeIndex index_;
   std::vector<bool> core_;     // points all of whose triangles are inside
-  std::vector<Point> places_;  // of the points of the part, and behind them of those that pieces add
+  std::vector<Point> places_;  // those of the points of the part, and behind them of those that pieces add
   std::vector<bool> held_;
   std::map<std::pair<double, double>, std::int32_t> added_;
-  std::vector<std::int32_t> ends_;                    // of pieces
+  std::vector<std::int32_t> ends_;                    // where pieces end
   std::map<std::int32_t, std::int32_t> end_markers_;  // by their numbers
   Labels labels_;
   std::vector<Border> borders_;

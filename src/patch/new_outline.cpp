@@ -73,7 +73,7 @@ class Matching {
   bool cover(std::size_t e, const std::array<std::int32_t, 2>& triangles) {
     const Point &a = mesh_.points[to_index(mesh_.edges[e].a)], &b = mesh_.points[to_index(mesh_.edges[e].b)];
     const std::optional<double> left = side(triangles[0]), right = side(triangles[1]);
-    if (!left && !right) return true;  // of no triangle: it is what it was
+    if (!left && !right) return true;  // no triangle has it: it is what it was
     double least = domain_.tolerance * domain_.tolerance;
     Root* best = nullptr;
     bool turned = false;

@@ -39,7 +39,7 @@ struct Piece {
 /// How the outline of a mesh, its listed edges, becomes a new one.
 struct OutlineMatch {
   std::vector<bool> gone;             ///< for each listed edge, whether it is on no segment with the same on both sides
-  std::vector<std::int32_t> markers;  ///< of the segments that the others are on; of one that is gone, its own
+  std::vector<std::int32_t> markers;  ///< those of the segments that the others are on; one that is gone has its own
   std::vector<Piece> pieces;          ///< what edges leave of the new segments
   std::vector<Point> corners;         ///< the points of the new domain
 };

@@ -30,8 +30,8 @@ struct Report {
   std::int64_t new_points = 0;
 
   // Only with a new domain:
-  std::int64_t gone_edges = 0;     ///< of the old outline that are not on the new one
-  std::int64_t pieces = 0;         ///< of the new outline that are not on the old one
+  std::int64_t gone_edges = 0;     ///< those of the old outline that are not on the new one
+  std::int64_t pieces = 0;         ///< those of the new outline that are not on the old one
   std::int64_t beyond = 0;         ///< new points where the old mesh was not
   std::int64_t other_markers = 0;  ///< edges that keep their markers although the new domain has others there
 };

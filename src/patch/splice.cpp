@@ -314,7 +314,7 @@ class Splicing {
   Numbering points_{mesh_.points.size()}, triangles_{mesh_.triangles.size()};
   // Edges between subdomains need not be Delaunay. What is made anew is one of its own.
   std::int32_t own_subdomain_ = mesh_.subdomains.empty() ? 0 : 1 + *std::ranges::max_element(mesh_.subdomains);
-  std::vector<bool> gone_points_;  // of the part
+  std::vector<bool> gone_points_;  // those of the part
   std::map<std::int32_t, std::int32_t> moved_points_, moved_triangles_;
   Numbers numbers_;
 };

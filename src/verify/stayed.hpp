@@ -22,11 +22,11 @@ struct NumberMap {
 struct StayedReport {
   struct Count {
     std::int64_t stayed = 0;    ///< bit for bit, triangles with their corners in the same order
-    std::int64_t numbered = 0;  ///< of these, with the number that they had
+    std::int64_t numbered = 0;  ///< those with the number that they had
     std::int64_t made = 0, gone = 0;
   };
   Count points, triangles;
-  std::int64_t edges = 0;         ///< of triangles that stayed, listed in both meshes
+  std::int64_t edges = 0;         ///< those of triangles that stayed, listed in both meshes
   std::int64_t near_changes = 0;  ///< points that stayed, with other data than before, at triangles that did not
   std::vector<std::string> data;  ///< names of point data that both have
   std::vector<std::string> only_in_old, only_in_new;
