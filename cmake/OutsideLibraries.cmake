@@ -96,7 +96,8 @@ set(driftmesh_lib_cairo PkgConfig::CAIRO)
 set(driftmesh_lib_cli11 CLI11::CLI11)
 set(driftmesh_lib_fmt fmt::fmt)
 set(driftmesh_lib_gdal $<BUILD_INTERFACE:driftmesh_gdal>)  # likewise
-set(driftmesh_lib_hdf5 HDF5Serial::hdf5)
+set(driftmesh_lib_hdf5 $<BUILD_INTERFACE:HDF5Serial::$<IF:$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>,for_programs,hdf5>>
+                       $<INSTALL_INTERFACE:HDF5Serial::hdf5>)
 set(driftmesh_lib_json $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>)  # only headers: nobody who links us needs it
 set(driftmesh_lib_metis METIS::metis)
 set(driftmesh_lib_mpi MPI::MPI_CXX)
