@@ -40,7 +40,7 @@ GrownFunction::GrownFunction(std::shared_ptr<const SizeField> field, std::shared
       gradation_(gradation),
       search_(accuracy.search),
       domain_(domain),
-      squares_{steep_->root()} {}
+      squares_{steep_->root().spot} {}
 
 GrownFunction::GrownFunction(const GrownFunction& other, std::shared_ptr<const PlaneFunction> own)
     : own_(std::move(own)),
@@ -64,7 +64,7 @@ double GrownFunction::at(const Point& p) const {
   double length = own_->at(p);
   if (!(length > 0)) return length;
   Least least{std::min(length, most_from(start_, p) * kHardlyMore), {}};
-  for (const Square& square : squares_) descend(p, square, least);
+  for (const Spot& spot : squares_) descend(p, steep_->square_at(spot), least);
   return least.length;
 }
 
@@ -104,7 +104,7 @@ std::shared_ptr<const PlaneFunction> GrownFunction::within(const Box& box) const
   const std::shared_ptr<GrownFunction> found(new GrownFunction(*this, std::move(own_within)));
   const Point center = box.center();
   Least least{most_from(start_, center), start_};
-  for (const Square& square : squares_) descend(center, square, least);
+  for (const Spot& spot : squares_) descend(center, steep_->square_at(spot), least);
   found->start_ = least.from;
   const Interval own = found->own_->over(box).value;
   const double most = own.undefined || !(own.high > 0) ? kUnlimited : own.high;
@@ -114,17 +114,24 @@ std::shared_ptr<const PlaneFunction> GrownFunction::within(const Box& box) const
   if (least.length < most)
     for (std::size_t k = 0; k < 4; ++k) rival[k] = most_from(found->start_, corners[k]) * kHardlyMore;
   const NearestInSquare near(box, gradation_, rival);
-  for (const Square& square : squares_) found->keep(square, near, kFine * width(box));
+  // Memory that the next call takes over, so that squares are counted before they get their own.
+  thread_local std::vector<Spot> room;
+  std::vector<Spot> kept = std::exchange(room, {});
+  kept.clear();
+  for (const Spot& spot : squares_) keep(steep_->square_at(spot), near, kFine * width(box), kept);
+  found->squares_.assign(kept.begin(), kept.end());
+  room = std::move(kept);
   return found;
 }
 
 /// Of a square, the parts that may be nearest, no wider than `fine` where they are divided.
-void GrownFunction::keep(const Square& square, const NearestInSquare& near, double fine) {
+void GrownFunction::keep(const Square& square, const NearestInSquare& near, double fine,
+                         std::vector<Spot>& kept) const {
   if (!matters(square) || !near.needs(square.least, part_in_domain(square))) return;
   if (square.is_divided && width(square.box) > fine)
-    for (const Square& quarter : steep_->steep_quarters(square)) keep(quarter, near, fine);
+    for (const Square& quarter : steep_->steep_quarters(square)) keep(quarter, near, fine, kept);
   else
-    squares_.push_back(square);
+    kept.push_back(square.spot);
 }
 
 Variation GrownFunction::over(const Box& box) const {
@@ -137,7 +144,8 @@ Variation GrownFunction::over(const Box& box) const {
   }
   const double radius = half_diagonal(box);
   DirectionRange range;
-  for (const Square& square : squares_) {
+  for (const Spot& spot : squares_) {
+    const Square square = steep_->square_at(spot);
     const Box part = part_in_domain(square);
     least = std::min(least, square.least + gradation_ * gap(part, box));
     const Point center = box.center();

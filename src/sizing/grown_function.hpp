@@ -32,6 +32,7 @@ class GrownFunction final : public PlaneFunction {
 
  private:
   using Square = SizeTree::Square;
+  using Spot = SizeTree::Spot;
   /// A point of a square and the least in that: from it the value at p is at most that, and the limit times the
   /// distance.
   struct Start {
@@ -47,7 +48,7 @@ class GrownFunction final : public PlaneFunction {
   GrownFunction(const GrownFunction& other, std::shared_ptr<const PlaneFunction> own);
   [[nodiscard]] Box part_in_domain(const Square& square) const;
   [[nodiscard]] bool matters(const Square& square) const;
-  void keep(const Square& square, const NearestInSquare& near, double fine);
+  void keep(const Square& square, const NearestInSquare& near, double fine, std::vector<Spot>& kept) const;
   void descend(const Point& p, const Square& square, Least& least) const;
   [[nodiscard]] double most_from(const Start& start, const Point& p) const;
 
@@ -56,8 +57,8 @@ class GrownFunction final : public PlaneFunction {
   double gradation_;
   double search_;
   Box domain_;
-  std::vector<Square> squares_;  // those that matter somewhere
-  Start start_{};                // a good one for a center
+  std::vector<Spot> squares_;  // those that matter somewhere
+  Start start_{};              // a good one for a center
 };
 
 }  // namespace driftmesh

@@ -1,6 +1,7 @@
 #include "sizing/segment_distance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -98,7 +99,7 @@ SegmentDistance::SegmentDistance(std::vector<Ends> segments) : all_(std::make_sh
 SegmentDistance::SegmentDistance(const Pslg& pslg, std::span<const std::int32_t> markers)
     : SegmentDistance(segments_with(pslg, markers)) {}
 
-SegmentDistance::SegmentDistance(std::shared_ptr<const All> all, std::vector<Line> few)
+SegmentDistance::SegmentDistance(std::shared_ptr<const All> all, std::vector<std::int32_t> few)
     : all_(std::move(all)), few_(std::move(few)) {}
 
 SegmentDistance::Nearest SegmentDistance::nearest(const Point& p) const {
@@ -111,10 +112,12 @@ SegmentDistance::Nearest SegmentDistance::nearest(const Point& p) const {
     const std::int32_t item = all_->tree.nearest(p, distance);
     return {&all_->lines[item], squared_to(p, all_->lines[item])};
   }
-  Nearest best{nullptr, std::numeric_limits<double>::infinity()};
-  for (const Line& s : few_)
+  Nearest best{&all_->lines[few_.front()], std::numeric_limits<double>::infinity()};
+  for (const std::int32_t item : few_) {
+    const Line& s = all_->lines[item];
     if (const double here = squared_to(p, s); here < best.squared_distance) best = {&s, here};
-  return best.line != nullptr ? best : Nearest{&few_.front(), best.squared_distance};
+  }
+  return best;
 }
 
 double SegmentDistance::at(const Point& p) const {
@@ -134,7 +137,8 @@ Variation SegmentDistance::over(const Box& box) const {
   if (few_.size() > 1) {
     const NearestInSquare square = against(*rival.line, box);
     const double far = middle + 2 * radius + rounding;
-    for (const Line& s : few_) {
+    for (const std::int32_t item : few_) {
+      const Line& s = all_->lines[item];
       if (&s == rival.line || squared_to(box.center(), s) > far * far || !may_be_nearest(square, s)) continue;
       slopes.extend(slopes_of(s, box, radius));
     }
@@ -151,19 +155,22 @@ NearestInSquare SegmentDistance::against(const Line& rival, const Box& box) cons
 std::shared_ptr<const PlaneFunction> SegmentDistance::within(const Box& box) const {
   if (!few_.empty() && few_.size() <= kFewest) return nullptr;
   const NearestInSquare square = against(*nearest(box.center()).line, box);
-  std::vector<Line> found;
-  found.reserve(few_.empty() ? kFew + 1 : few_.size());
+  std::array<std::int32_t, kFew> found;
+  std::size_t count = 0;  // more than kFew: too many
+  const auto look_at = [&](std::int32_t item) {
+    if (count > kFew || !may_be_nearest(square, all_->lines[item])) return;
+    if (count < kFew) found[count] = item;
+    ++count;
+  };
   if (few_.empty()) {
-    const auto enter = [&](const Box& around) { return found.size() <= kFew && square.needs(0, around); };
-    all_->tree.search(enter, [&](std::int32_t item) {
-      if (may_be_nearest(square, all_->lines[item])) found.push_back(all_->lines[item]);
-    });
-    if (found.size() > kFew) return nullptr;
+    const auto enter = [&](const Box& around) { return count <= kFew && square.needs(0, around); };
+    all_->tree.search(enter, look_at);
+    if (count > kFew) return nullptr;
   } else {
-    std::ranges::copy_if(few_, std::back_inserter(found), [&](const Line& s) { return may_be_nearest(square, s); });
-    if (found.size() == few_.size()) return nullptr;
+    std::ranges::for_each(few_, look_at);
+    if (count == few_.size()) return nullptr;
   }
-  return std::shared_ptr<const SegmentDistance>(new SegmentDistance(all_, std::move(found)));
+  return std::shared_ptr<const SegmentDistance>(new SegmentDistance(all_, {found.begin(), found.begin() + count}));
 }
 
 }  // namespace driftmesh

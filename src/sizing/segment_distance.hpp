@@ -43,13 +43,13 @@ class SegmentDistance final : public PlaneFunction {
     const Line* line;
     double squared_distance;
   };
-  SegmentDistance(std::shared_ptr<const All> all, std::vector<Line> few);
+  SegmentDistance(std::shared_ptr<const All> all, std::vector<std::int32_t> few);
   [[nodiscard]] Nearest nearest(const Point& p) const;
   /// What may be nearer than this segment in a box.
   [[nodiscard]] NearestInSquare against(const Line& rival, const Box& box) const;
 
   std::shared_ptr<const All> all_;
-  std::vector<Line> few_;  // those that can be nearest; none: any of all
+  std::vector<std::int32_t> few_;  // the lines that can be nearest; none: any of all
 };
 
 }  // namespace driftmesh

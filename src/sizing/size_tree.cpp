@@ -323,8 +323,11 @@ void SizeTree::unpack(Node& node, const Place& place, ByteReader& reader) {
 
 SizeTree::Square SizeTree::square_of(Node& node, const Place& place, const Box& box, std::uintptr_t state) const {
   const bool is_leaf = Node::is_leaf(state);
-  return {box,   width_ * node.least, !is_leaf, is_leaf && Node::kind(state) != kSmooth,
-          &node, place.level,         place.i,  place.j};
+  return {box,
+          width_ * node.least,
+          !is_leaf,
+          is_leaf && Node::kind(state) != kSmooth,
+          {&node, place.i, place.j, place.level}};
 }
 
 SizeTree::Square SizeTree::root() const {
@@ -332,13 +335,20 @@ SizeTree::Square SizeTree::root() const {
   return square_of(node, {}, box_of({}), compiled(node, {}, *top_));
 }
 
+SizeTree::Square SizeTree::square_at(const Spot& spot) const {
+  Node& node = *static_cast<Node*>(spot.node);
+  const Place place{spot.i, spot.j, spot.level};
+  return square_of(node, place, box_of(place), node.state.load(std::memory_order_acquire));
+}
+
 SizeTree::Steep SizeTree::steep_quarters(const Square& square) const {
-  Quarters& parts = *Node::quarters(static_cast<Node*>(square.node)->state.load(std::memory_order_acquire));
+  const Spot& spot = square.spot;
+  Quarters& parts = *Node::quarters(static_cast<Node*>(spot.node)->state.load(std::memory_order_acquire));
   const Point middle = square.box.center();  // exact: of squares of a grid
   Steep found;
   for (std::size_t k = 0; k < 4; ++k) {
     Node& node = parts.nodes[k];
-    const Place place{2 * square.i + k % 2, 2 * square.j + k / 2, square.level + 1};
+    const Place place{2 * spot.i + k % 2, 2 * spot.j + k / 2, spot.level + 1};
     const std::uintptr_t state = compiled(node, place, parts);
     if (Node::is_leaf(state) && Node::kind(state) == kSmooth) continue;
     const Box& all = square.box;

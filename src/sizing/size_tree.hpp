@@ -64,18 +64,24 @@ class SizeTree final : public SizeField {
   [[nodiscard]] double least_between(const std::array<Point, 3>& triangle, double at_corners) const override;
   [[nodiscard]] bool falls_below(const std::array<Point, 3>& triangle, double length) const override;
 
+  /// Where a square of the tree is, in the grid that divides the root `level` times.
+  struct Spot {
+    void* node;  // what the tree keeps of it
+    std::uint64_t i, j;
+    int level;
+  };
   /// A square of the tree.
   struct Square {
     Box box;
     double least;  // no length in it is less
     bool is_divided;
     bool is_steep;  // not divided, and not smooth
-    void* node;     // what the tree keeps of it
-    int level;
-    std::uint64_t i, j;
+    Spot spot;
   };
   /// Has the domain in it.
   [[nodiscard]] Square root() const;
+  /// That of such a place.
+  [[nodiscard]] Square square_at(const Spot& spot) const;
   /// The quarters of a square that is divided, without those that are smooth.
   struct Steep {
     std::array<Square, 4> squares;
