@@ -28,7 +28,7 @@ const std::string kNotes =
     "  -q  angles of at least 20 degrees, or -q30: of at least 30; 34 is the most\n"
     "  -a  areas of at most those of the regions or of the .area; -a0.1: of at most 0.1\n"
     "  -u  lengths of edges by --size\n"
-    "  -A  triangles get the attributes of regions\n"
+    "  -A  triangles get the attributes of regions; with -p\n"
     "  -c  the convex hull counts as segments\n"
     "  -D  conforming Delaunay: all circumcircles are empty; also -s\n"
     "  -Y  no new points on the boundary; -YY: on no segment\n"

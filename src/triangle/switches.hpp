@@ -17,7 +17,7 @@ struct Switches {
   bool given_areas = false;        ///< a without a number: bounds of regions or of triangles
   bool unsuitable = false;         ///< u: the caller says which triangles are too large
   InsertionRules rules{};          ///< D and s, Y, S
-  bool region_attributes = false;  ///< A
+  bool region_attributes = false;  ///< A, with p and without r
   bool hull = false;               ///< c: the convex hull is part of the input
   bool jettison = false;           ///< j: points in no triangle are left out
   bool edges = false;              ///< e

@@ -212,11 +212,11 @@ Made make_new(const Tables& in, const Switches& switches, const Caller& caller) 
     const double label = mesh.regions.empty() ? 0 : mesh.regions[t];
     return label > 0 ? &in.regions[static_cast<std::size_t>(label) - 1] : nullptr;
   };
-  made.tables.attributes_per_triangle = switches.region_attributes ? 1 : 0;
+  const bool attributes = switches.region_attributes && !in.regions.empty();
+  made.tables.attributes_per_triangle = attributes ? 1 : 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Pslg::Region* const region = region_of(t);
-    if (switches.region_attributes)
-      made.tables.triangle_attributes.push_back(region != nullptr ? region->attribute : 0);
+    if (attributes) made.tables.triangle_attributes.push_back(region != nullptr ? region->attribute : 0);
     made.areas.push_back(region != nullptr && switches.given_areas ? region->max_area : 0);
   }
   return made;

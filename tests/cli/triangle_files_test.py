@@ -29,10 +29,10 @@ def from_zero(text, columns_of_points):
 
 # Inputs by their files and the first argument. Each can be meshed without -p and, where it has a .poly, with it.
 INPUTS = {
-    "hole": ({"a.poly": SQUARE + SEGMENTS + "1\n1 1.5 1.5\n"}, "a.poly"),
+    "hole": ({"a.poly": SQUARE + SEGMENTS + "1\n1 1.5 1.5\n0\n"}, "a.poly"),
     "regions": ({"a.poly": SQUARE + SEGMENTS + "0\n2\n1 0.5 0.5 3 0.5\n2 1.5 1.5 4 0.05\n"}, "a.poly"),
-    "from zero": ({"a.poly": from_zero(SQUARE, ()) + from_zero(SEGMENTS, (1, 2)) + "1\n0 1.5 1.5\n"}, "a.poly"),
-    "beside a .node": ({"a.node": SQUARE, "a.poly": "0 2 1 1\n" + SEGMENTS + "0\n"}, "a.poly"),
+    "from zero": ({"a.poly": from_zero(SQUARE, ()) + from_zero(SEGMENTS, (1, 2)) + "1\n0 1.5 1.5\n0\n"}, "a.poly"),
+    "beside a .node": ({"a.node": SQUARE, "a.poly": "0 2 1 1\n" + SEGMENTS + "0\n0\n"}, "a.poly"),
     "points": ({"a.node": "5 2 0 0\n0 0 0\n1 3 0\n2 3 3\n3 0 3\n4 1 1.5\n"}, "a.node"),
     "mesh": ({"a.1.node": SQUARE, "a.1.ele": "4 3 1\n1 1 2 6 7\n2 2 3 6 8\n3 6 3 7 9\n4 1 6 5 9\n",
               "a.1.poly": "0 2 1 1\n4 1\n1 1 2 5\n2 2 3 6\n3 5 6 7\n4 6 7 7\n0\n", "a.1.area": "4\n1 -1\n2 0.1\n3 0.2\n4 -1\n"}, "a.1"),
@@ -94,6 +94,16 @@ class Files:
         return {kind: (self.headers[kind][0 if kind == "poly" else 1:], self.rows[kind][0][0] if self.rows[kind] else None)
                 for kind in kinds}
 
+    def sizes(self):
+        """How many of each kind there are, which points, segments and areas alone decide where none are added."""
+        return {kind: len(rows) for kind, rows in self.rows.items()}
+
+    def given(self, points, markers):
+        """What is as given where no point is added: the first points, with their markers if these are asked for, and segments with theirs."""
+        columns = None if markers else -1
+        segments = [[*sorted(row[1:3]), row[3]] for kind in ("poly", "edge") for row in self.rows.get(kind, []) if row[3:] not in ([], ["0"])]
+        return [[float(field) for field in row[:columns]] for row in self.rows.get("node", [])[:points]], sorted(segments)
+
     def judge(self, test):
         first = next((int(rows[0][0]) for rows in self.rows.values() if rows), 1)
         for rows in self.rows.values():
@@ -148,7 +158,7 @@ class Structure(Cli):
                         self.assertEqual(made.rows["node"][0][0], "0" if label in ("from zero", "points") else "1")
                     if "ele" in made.headers:
                         self.assertEqual(made.headers["ele"][1], 6 if "o2" in switches else 3)
-                        with_regions = "A" in switches or label == "mesh"
+                        with_regions = "A" in switches and label == "regions" or label == "mesh"
                         self.assertEqual(made.headers["ele"][2], 1 if with_regions else 0)
                     for path in files:
                         self.assertEqual((folder / path).read_text(), files[path])
@@ -168,8 +178,14 @@ class Structure(Cli):
                         self.make(files, folder)
                         subprocess.run([*command, *arguments(files, name, switches)], cwd=folder, check=True, timeout=60,
                                        capture_output=True)
-                        made.append(Files(folder, "a.2" if label == "mesh" else "a.1").structure())
-                    self.assertEqual(*made)
+                        made.append(Files(folder, "a.2" if label == "mesh" else "a.1"))
+                    self.assertEqual(*(files.structure() for files in made))
+                    if set(switches) & set("qaDsS") or (label, switches) == ("mesh", "j"):
+                        continue  # with points added; or points that an old mesh does not use, which Triangle keeps
+                    self.assertEqual(*(files.sizes() for files in made))
+                    points = next(int(text.split()[0]) for path, text in sorted(files.items()) if path.endswith((".node", ".poly")))
+                    # Points of an old mesh without markers get 1 from Triangle, and those of their segments here.
+                    self.assertEqual(*(files.given(points, "B" not in switches and label != "mesh") for files in made))
 
 
 class Command(Cli):
