@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # The tests of threads under the thread sanitizer, the property tests with new seeds, whether the tests notice mutated sources, the tests that scripts/test.sh does not run
 # under the other sanitizers, the wheel in roots of its own, 100,000 mutated files and 20,000 mutated meshes, read and checked under them by driftmesh-mutants, and
-# a million adversarial schedules of real meshing with driftmesh-sim, on all cores: prints the failing seeds, and totals. The exit
-# code is 0 if none fails.
+# a million adversarial schedules of real meshing with driftmesh-sim, and 100,000 in which ranks are killed and resumed, on all
+# cores: prints the failing seeds, and totals. The exit code is 0 if none fails.
 #   scripts/nightly.sh [--mutants FIRST..LAST] [--meshes FIRST..LAST]      which mutated files and meshes; 0..0: none
 #                      [--seeds FIRST..LAST]                              which schedules
+#                      [--faults FIRST..LAST]                             which schedules with faults
 #                      [--properties N]                                   so many runs of the property tests (20; 0: none)
 #                      [--no-threads]                                     without the thread sanitizer
 #                      [--no-night]                                       without the tests with the label `night`
@@ -15,8 +16,8 @@ set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
 cd "$project_root"
 
-first=1
-last=1000000
+seeds=1..1000000
+faults=1..100000
 mutants=1..100000
 meshes=1..20000
 program=
@@ -28,9 +29,9 @@ mutation=yes
 properties=20
 while [[ $# -gt 0 ]]; do
   case "$1" in
-    --seeds | --mutants | --meshes)
+    --seeds | --faults | --mutants | --meshes)
       [[ ${2-} =~ ^([0-9]+)\.\.([0-9]+)$ ]] || { echo "nightly.sh: $1 must be FIRST..LAST, such as 1..5000" >&2; exit 2; }
-      if [[ $1 != --seeds ]]; then declare "${1#--}=$2"; else first=${BASH_REMATCH[1]} last=${BASH_REMATCH[2]}; fi
+      declare "${1#--}=$2"
       shift
       ;;
     --properties)
@@ -51,7 +52,7 @@ while [[ $# -gt 0 ]]; do
       shift
       ;;
     -h | --help)
-      sed -n '2,13s/^# \{0,1\}//p' "$0"
+      sed -n '2,15s/^# \{0,1\}//p' "$0"
       exit 0
       ;;
     *)
@@ -102,7 +103,7 @@ if [[ $meshes != 0..0 ]]; then
   say "Mutated meshes $meshes on $jobs cores"
   "$mutants_program" --meshes --seeds "$meshes" --keep build/mutated-meshes || result=1
 fi
-[[ $last -gt 0 ]] || exit "$result"
+[[ $seeds != 0..0 || $faults != 0..0 ]] || exit "$result"
 
 if [[ -z $program ]]; then
   cmake --preset release -Wno-dev && cmake --build --preset release -j "$jobs" --target driftmesh-sim
@@ -111,24 +112,30 @@ fi
 logs=$(mktemp -d)
 trap 'rm -rf "$logs"' EXIT
 
-# Parts small enough for all cores to finish together; each ends with its totals.
-part=2000
-say "Seeds $first to $last on $jobs cores"
-for ((begin = first; begin <= last; begin += part)); do
-  end=$((begin + part - 1))
-  echo "$begin..$((end < last ? end : last))"
-done | xargs -P "$jobs" -I{} sh -c '"$0" --seeds {} >"$1/{}"' "$program" "$logs" || result=1
-cat "$logs"/* | grep -A1 '^seed [0-9]' || true
+# schedules FIRST..LAST PART [OPTION]: in parts small enough for all cores to finish together; each ends with its totals.
+schedules() {
+  local first=${1%..*} last=${1#*..} part=$2 begin end
+  [[ $last -gt 0 ]] || return 0
+  say "Seeds $first to $last${3:+ with $3} on $jobs cores"
+  rm -f "$logs"/*
+  for ((begin = first; begin <= last; begin += part)); do
+    end=$((begin + part - 1))
+    echo "$begin..$((end < last ? end : last))"
+  done | xargs -P "$jobs" -I{} sh -c '"$0" --seeds {} $2 >"$1/{}"' "$program" "$logs" "${3-}" || result=1
+  cat "$logs"/* | grep -A1 '^seed [0-9]' || true
 
-# Each total is a number and what it counts.
-say "What was done"
-awk -F '[,;] ' '
-  /^seeds / { split($0, words, " "); schedules += words[4] - words[2] + 1; failed += words[5]; next }
-  /^ *FAILED|^seed [0-9]/ { next }
-  { for (i = 1; i <= NF; ++i) {
-      number = $i + 0; what = $i; sub(/^[0-9.]+ /, "", what); if (what == "s") what = "seconds of cores"
-      if (!(what in sum)) order[++kinds] = what
-      if (what ~ /at most$/) { if (number > sum[what]) sum[what] = number } else sum[what] += number } }
-  END { for (i = 1; i <= kinds; ++i) printf "%15d %s\n", sum[order[i]], order[i]
-        printf "%d schedules, %d failed\n", schedules, failed }' "$logs"/*
+  # Each total is a number and what it counts.
+  say "What was done"
+  awk -F '[,;] ' '
+    /^seeds / { split($0, words, " "); schedules += words[4] - words[2] + 1; failed += words[5]; next }
+    /^ *FAILED|^seed [0-9]/ { next }
+    { for (i = 1; i <= NF; ++i) {
+        number = $i + 0; what = $i; sub(/^[0-9.]+ /, "", what); if (what == "s") what = "seconds of cores"
+        if (!(what in sum)) order[++kinds] = what
+        if (what ~ /at most$/) { if (number > sum[what]) sum[what] = number } else sum[what] += number } }
+    END { for (i = 1; i <= kinds; ++i) printf "%15d %s\n", sum[order[i]], order[i]
+          printf "%d schedules, %d failed\n", schedules, failed }' "$logs"/*
+}
+schedules "$seeds" 2000
+schedules "$faults" 500 --faults
 exit "$result"

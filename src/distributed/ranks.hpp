@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "base/bytes.hpp"
+#include "base/stopwatch.hpp"
 #include "distributed/exchange.hpp"
 #include "driftmesh/ids.hpp"
 
 namespace driftmesh {
 
-/// Those who work on a mesh together: this process by itself, or the ranks of a transport. All calls but rank() and
-/// ranks() are collective, in the same order on all ranks.
+/// Those who work on a mesh together: this process by itself, or the ranks of a transport. All calls but rank(),
+/// ranks() and now() are collective, in the same order on all ranks.
 class Ranks {
  public:
   virtual ~Ranks() = default;
@@ -21,6 +22,8 @@ class Ranks {
   [[nodiscard]] virtual Rank rank() const = 0;
   [[nodiscard]] virtual std::int32_t ranks() const = 0;
   [[nodiscard]] bool alone() const { return ranks() == 1; }
+  /// Seconds since some moment in the past; in simulated time on simulated ranks.
+  [[nodiscard]] virtual double now() const = 0;
 
   /// Performs a whole exchange.
   virtual void run(Exchange& exchange) = 0;
@@ -62,7 +65,11 @@ class OneRank final : public Ranks {
  public:
   [[nodiscard]] Rank rank() const override { return Rank{0}; }
   [[nodiscard]] std::int32_t ranks() const override { return 1; }
+  [[nodiscard]] double now() const override { return clock_.seconds(); }
   void run(Exchange& exchange) override;
+
+ private:
+  Stopwatch clock_;
 };
 
 /// The ranks of a transport, which nothing else uses meanwhile.
@@ -71,6 +78,7 @@ class RanksOfTransport final : public Ranks {
   explicit RanksOfTransport(protocol::Transport& transport) : transport_(transport), runner_(transport) {}
   [[nodiscard]] Rank rank() const override { return transport_.rank(); }
   [[nodiscard]] std::int32_t ranks() const override { return transport_.ranks(); }
+  [[nodiscard]] double now() const override { return transport_.now(); }
   void run(Exchange& exchange) override { runner_.run(exchange); }
 
  private:

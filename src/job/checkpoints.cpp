@@ -6,6 +6,7 @@
 
 #include "base/failure.hpp"
 #include "base/key_error.hpp"
+#include "base/stopwatch.hpp"
 #include "distributed/parts_file.hpp"
 #include "driftmesh/error.hpp"
 #include "job/fence.hpp"
@@ -82,15 +83,17 @@ Checkpoints::Checkpoints(Rules rules, Ranks& ranks, std::function<std::map<std::
       ranks_(ranks),
       heads_(std::move(heads)),
       check_all_(std::move(check_all)),
-      watch_(watch) {}
+      watch_(watch),
+      last_fence_(ranks_.now()),
+      last_save_(last_fence_) {}
 
 bool Checkpoints::halts() const {
   if (ends_ || NotedSignals::told_to_end() || NotedSignals::requested()) return true;
-  return ranks_.alone() ? is_due() : clock_.seconds() - last_fence_ >= rules_.fence_every;
+  return ranks_.alone() ? is_due() : ranks_.now() - last_fence_ >= rules_.fence_every;
 }
 
 bool Checkpoints::is_due() const {
-  return clock_.seconds() - last_save_ >= rules_.every;
+  return ranks_.now() - last_save_ >= rules_.every;
 }
 
 void Checkpoints::end_for(std::exception_ptr why) {
@@ -126,7 +129,7 @@ bool Checkpoints::fence(bool rests, const RefinementInRounds& refinement) {
   if (next.end) ranks_.alike([&] { end(why, fault); });
   if (!fault.empty() && ranks_.rank() == Rank{0} && !std::exchange(warned_, true))
     watch_.warn("no checkpoint was written: " + fault);
-  last_fence_ = clock_.seconds();
+  last_fence_ = ranks_.now();
   return next.round_is_over;
 }
 
@@ -147,7 +150,7 @@ std::string Checkpoints::save(const RefinementInRounds& refinement) {
         ranks_);
   });
   NotedSignals::forget_request();
-  last_save_ = clock_.seconds();
+  last_save_ = ranks_.now();
   record_.seconds += took.seconds();
   if (fault) {
     ranks_.recovered();

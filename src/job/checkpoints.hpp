@@ -10,7 +10,6 @@
 
 #include "base/bytes.hpp"
 #include "base/noted_signals.hpp"
-#include "base/stopwatch.hpp"
 #include "distributed/ranks.hpp"
 #include "job/record.hpp"
 #include "job/watch.hpp"
@@ -57,8 +56,7 @@ class Checkpoints {
   std::function<void(std::int64_t)> check_all_;
   Watch& watch_;
   NotedSignals signals_;
-  Stopwatch clock_;
-  double last_fence_ = 0, last_save_ = 0;  // by the clock; read by threads, which end before a fence
+  double last_fence_, last_save_;  // when; read by threads, which end before a fence
   std::atomic<bool> ends_ = false;
   std::mutex alone_;
   std::exception_ptr why_;

@@ -97,7 +97,7 @@ void RanksProgress::hear() {
     done_ += is_done ? 1 : 0;
     if (received->source != watched_) continue;
     heard_ = channel_->transport().now();
-    is_done_ = is_done;
+    is_done_ = is_done_ || is_done;  // what was sent before may come after it
     watched_doing_ = reader.text();
   }
 }

@@ -15,6 +15,7 @@
 #include "cli/values.hpp"
 #include "driftmesh/error.hpp"
 #include "sim/adversarial_run.hpp"
+#include "sim/journey.hpp"
 
 namespace {
 
@@ -55,6 +56,24 @@ bool show(std::uint64_t seed, const Choice& choice, Domains& domains) {
   return o.failure().empty();
 }
 
+/// Makes journeys of many seeds, or of one, and prints failures and totals.
+bool travel(std::uint64_t first, std::uint64_t last) {
+  const Stopwatch watch;
+  Journeys journeys;
+  std::uint64_t failed = 0;
+  for (std::uint64_t seed = first; seed <= last; ++seed) {
+    const JourneyPlan plan = JourneyPlan::from_seed(seed);
+    if (first == last) fmt::print("{}\n", plan.describe());
+    const std::string problem = journeys.travel(plan);
+    if (problem.empty()) continue;
+    ++failed;
+    fmt::print("{}\n  FAILED {}\n", plan.describe(), problem);
+  }
+  fmt::print("seeds {} to {}: {} failed\n", first, last, failed);
+  fmt::print("{}; {:.1f} s\n", words_of(journeys.counts()), watch.seconds());
+  return failed == 0;
+}
+
 /// Replays many seeds and prints failures and totals.
 bool sweep(std::uint64_t first, std::uint64_t last, const Choice& choice, Domains& domains) {
   const Stopwatch watch;
@@ -86,11 +105,16 @@ bool sweep(std::uint64_t first, std::uint64_t last, const Choice& choice, Domain
 struct Request {
   std::uint64_t seed = 1;
   std::string seeds, presplit = "auto";
+  bool faults = false;
   Choice choice;
 };
 
 int replay_all(Request& request) {
   if (request.presplit != "auto") request.choice.presplit = request.presplit == "on";
+  if (request.faults) {
+    const auto [first, last] = seed_range(request.seeds.empty() ? std::to_string(request.seed) : request.seeds);
+    return travel(first, last) ? 0 : 1;
+  }
   Domains domains;
   if (request.seeds.empty()) return show(request.seed, request.choice, domains) ? 0 : 1;
   const auto [first, last] = seed_range(request.seeds);
@@ -110,6 +134,10 @@ cli::Command program(Request& request) {
                        .value = "FIRST..LAST",
                        .help = "Replay these runs; print those that fail",
                        .take = cli::into(request.seeds)},
+                      {.kind = cli::Option::Kind::kFlag,
+                       .name = "faults",
+                       .help = "Whole runs instead, whose ranks are killed, hung, slowed down and resumed on others",
+                       .take = cli::into(request.faults)},
                       {.name = "ranks",
                        .value = "N",
                        .help = "Simulated ranks",
