@@ -11,6 +11,7 @@ namespace driftmesh::app {
 [[nodiscard]] cli::Command adapt_command();
 [[nodiscard]] cli::Command calibrate_command();
 [[nodiscard]] cli::Command check_command();
+[[nodiscard]] cli::Command clean_command();
 [[nodiscard]] cli::Command convert_command();
 [[nodiscard]] cli::Command decompose_command();
 [[nodiscard]] cli::Command generate_command();

@@ -46,7 +46,7 @@ cli::Command commands_of_program() {
                    .prints = version_text}},
       .commands = {mesh_command(), adapt_command(), check_command(), convert_command(), decompose_command(),
                    generate_command(), plot_command(), run_command(), replay_command(), calibrate_command(),
-                   triangle_command()},
+                   triangle_command(), clean_command()},
       .notes =
           "For the options of a command, see: driftmesh COMMAND --help\n\n"
           "In place of any file name, - stands for standard input or output; an extension after it selects the "

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -10,8 +9,8 @@
 #include <mutex>
 #include <set>
 #include <string_view>
-#include <vector>
 
+#include "base/remains.hpp"
 #include "base/system.hpp"
 
 namespace driftmesh {
@@ -55,28 +54,11 @@ Note* free_note() {
   return made;
 }
 
-// ---- Whose a temporary file is ---------------------------------------------------------------------------------
-
-constexpr std::string_view kMark = ".tmp-";
 constexpr std::size_t kLongestName = 255;
 
 std::string mark_of_host() {
-  static const std::string mark = std::string(kMark) + host_of_processes() + "-";
+  static const std::string mark = std::string(kTemporaryMark) + host_of_processes() + "-";
   return mark;
-}
-
-/// The process that a temporary file of this host belongs to; 0 for any other file.
-long owner_of(std::string_view name) {
-  const std::string mark = mark_of_host();
-  const std::size_t at = name.rfind(mark);
-  if (at == std::string_view::npos || at == 0) return 0;
-  const char *begin = name.data() + at + mark.size(), *const end = name.data() + name.size();
-  long process = 0;
-  unsigned number = 0;
-  const auto [dash, no_process] = std::from_chars(begin, end, process);
-  if (no_process != std::errc() || dash == end || *dash != '-') return 0;
-  const auto [last, no_number] = std::from_chars(dash + 1, end, number);
-  return no_number == std::errc() && last == end ? process : 0;
 }
 
 fs::path folder_of(const std::string& target) {
@@ -106,12 +88,8 @@ void remove_remains_beside(const std::string& target) {
   const fs::path folder = folder_of(target);
   std::error_code ignored;
   if (!is_first_look(fs::absolute(folder, ignored).string())) return;
-  std::vector<fs::path> remains;
-  for (fs::directory_iterator at(folder, ignored), end; !ignored && at != end; at.increment(ignored))
-    if (at->symlink_status(ignored).type() == fs::file_type::regular &&
-        has_ended(owner_of(at->path().filename().string())))
-      remains.push_back(at->path());
-  for (const fs::path& file : remains) fs::remove(file, ignored);
+  for (const Remains& file : temporaries_in(folder.string()))
+    if (is_abandoned(file)) fs::remove(file.path, ignored);
 }
 
 NotedTemporary::NotedTemporary(const std::string& path) : note_(nullptr) {

@@ -8,8 +8,8 @@ namespace driftmesh {
 /// in this process by the number and among all processes of this machine by the rest, which says whose it is.
 [[nodiscard]] std::string temporary_name(const std::string& target);
 
-/// Removes the temporary files of processes of this machine that have ended without removing them (killed, say) from
-/// the folder of `target`. Looks into each folder once in the life of this process.
+/// Removes the temporary files that are abandoned (see remains.hpp) from the folder of `target`: those of processes
+/// that have ended without removing them (killed, say). Looks into each folder once in the life of this process.
 void remove_remains_beside(const std::string& target);
 
 /// The name of a file that is to be gone when the process ends, while the object exists: also when a signal ends it,

@@ -14,7 +14,7 @@ import program
 from program import Cli, main
 
 KINDS = ["bay", "comb", "cylinder-flow", "fan", "holes", "pipe", "random-points", "random-polygon", "rectangle-hole"]
-COMMANDS = ["adapt", "calibrate", "check", "config", "convert", "decompose", "generate", "help", "mesh", "plot", "replay", "run", "triangle"]
+COMMANDS = ["adapt", "calibrate", "check", "clean", "config", "convert", "decompose", "generate", "help", "mesh", "plot", "replay", "run", "triangle"]
 
 
 class Help(Cli):
