@@ -6,15 +6,21 @@ mpirun) at a random moment, and the next one goes on from its checkpoint, or beg
 each journey ends with the mesh of a run that was never stopped, no run but those that were killed fails, and the work that a
 kill costs is that since the last checkpoint, which is at most an interval old. The seed determines what is killed and when.
 
+With --journeys, makes so many of simulated ranks instead, by driftmesh-sim.
+
 usage: kills.py [--program DRIFTMESH] [--kills 300] [--seed 1] [--update]
+       kills.py [--program DRIFTMESH] --journeys 100000 [--simulator DRIFTMESH-SIM] [--update]
 """
 
 import argparse
 import collections
+import concurrent.futures
 import json
 import os
 import pathlib
 import random
+import re
+import resource
 import signal
 import subprocess
 import sys
@@ -162,15 +168,49 @@ def kills_table(options):
     return table
 
 
+def travel_simulated(simulator, first, last):
+    """What driftmesh-sim counts in these journeys, by its words."""
+    run = subprocess.run([simulator, "--faults", "--seeds", f"{first}..{last}"], env=ENVIRONMENT, capture_output=True, text=True, check=False)
+    if run.returncode != 0:
+        raise SystemExit(f"FAILED:\n{run.stdout}{run.stderr}")
+    counts = run.stdout.strip().splitlines()[-1]
+    return collections.Counter({words: int(number) for number, words in re.findall(r"(\d+) ([a-z ]+)", counts.rsplit(";", 1)[0])})
+
+
+def journeys_table(options):
+    simulator = os.path.abspath(options.simulator or pathlib.Path(options.program).parent / "driftmesh-sim")
+    part = 250
+    tally = collections.Counter()
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        parts = [(first, min(first + part - 1, options.journeys)) for first in range(1, options.journeys + 1, part)]
+        for counts in pool.map(lambda seeds: travel_simulated(simulator, *seeds), parts):
+            tally += counts
+            print(f"{tally['journeys']} journeys", flush=True)
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    seconds = used.ru_utime + used.ru_stime
+    table = Table("journeys", "Simulated ranks", ["what", "times"],
+                  f"{tally['journeys']:,} journeys, {tally['in rounds']:,} of them in rounds and the others coupled, in {tally['runs']:,} runs: {tally['resumed']:,} "
+                  f"went on from a checkpoint, {tally['begun anew']:,} began anew. None failed. They took {seconds:,.0f} s of processor time, {options.journeys / seconds:.0f} journeys a "
+                  f"second of a core; 100,000 take {1e5 / options.journeys * seconds / 60:.0f} minutes of one.")
+    for what in ("killed", "killed at a write", "hung", "told to end", "paused", "slowed down", "sent late", "refused bytes by the disk"):
+        table.add(f"a rank is {what}" if not what.startswith("sent") else "a rank's messages take long", tally[what])
+    table.add("a checkpoint is completed", tally["checkpoints"])
+    table.add("one cannot be written", tally["refused"])
+    table.add("a rank that hangs is given up by the others", tally["given up"])
+    return table
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", default=PROJECT / "build/release/driftmesh")
     parser.add_argument("--kills", type=int, default=300)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--journeys", type=int, default=0, help="so many on simulated ranks, instead")
+    parser.add_argument("--simulator", help="driftmesh-sim; without it, that beside the program")
     parser.add_argument("--area", type=float, default=0.05)
     results.add_option(parser)
     options = parser.parse_args()
-    results.show("scripts/kills.py", map(kills_table, [options]), options)
+    results.show("scripts/kills.py", map(journeys_table if options.journeys > 0 else kills_table, [options]), options)
 
 
 if __name__ == "__main__":

@@ -54,6 +54,14 @@ void Ranks::agree(const std::function<void()>& work) {
   alike([&] { throw_first_failure(statuses); });
 }
 
+void RanksOfTransport::run(Exchange& exchange) {
+  protocol::run_rank(transport_, [&] {
+    const protocol::StepResult result = runner_.step(exchange);
+    if (result == protocol::StepResult::kIdle) look_up();
+    return result;
+  });
+}
+
 void OneRank::run(Exchange& exchange) {
   const IdVector<Rank, Exchange*> alone{&exchange};
   exchange_directly(alone);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "base/bytes.hpp"
@@ -12,7 +13,7 @@
 namespace driftmesh {
 
 /// Those who work on a mesh together: this process by itself, or the ranks of a transport. All calls but rank(),
-/// ranks() and now() are collective, in the same order on all ranks.
+/// ranks(), now() and meanwhile() are collective, in the same order on all ranks.
 class Ranks {
  public:
   virtual ~Ranks() = default;
@@ -24,6 +25,10 @@ class Ranks {
   [[nodiscard]] bool alone() const { return ranks() == 1; }
   /// Seconds since some moment in the past; in simulated time on simulated ranks.
   [[nodiscard]] virtual double now() const = 0;
+
+  /// `look` is called again and again while this rank waits for others in a call; what it throws, only this rank
+  /// throws.
+  void meanwhile(std::function<void()> look) { meanwhile_ = std::move(look); }
 
   /// Performs a whole exchange.
   virtual void run(Exchange& exchange) = 0;
@@ -55,9 +60,13 @@ class Ranks {
 
  protected:
   Ranks() = default;
+  void look_up() const {
+    if (meanwhile_) meanwhile_();
+  }
 
  private:
   bool failed_together_ = false;
+  std::function<void()> meanwhile_;
 };
 
 /// This process by itself.
@@ -79,7 +88,7 @@ class RanksOfTransport final : public Ranks {
   [[nodiscard]] Rank rank() const override { return transport_.rank(); }
   [[nodiscard]] std::int32_t ranks() const override { return transport_.ranks(); }
   [[nodiscard]] double now() const override { return transport_.now(); }
-  void run(Exchange& exchange) override { runner_.run(exchange); }
+  void run(Exchange& exchange) override;
 
  private:
   protocol::Transport& transport_;

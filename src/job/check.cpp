@@ -298,6 +298,16 @@ void check(const Request& request, PlaceKind place, const balancer::PolicyMaker&
   }
 }
 
+void check_alone(const Request& request) {
+  const Request::Patience standard;
+  const auto check_time = [&](double given, double usual, const char* key) {
+    require(given == usual, key, "is about other ranks, but this process is alone",
+            "start it with mpirun, or remove it");
+  };
+  check_time(request.patience.silence, standard.silence, "run.silence");
+  check_time(request.patience.give_up, standard.give_up, "run.give-up");
+}
+
 void check_ranks(const Request& request, PlaceKind place, std::int32_t ranks) {
   const std::int32_t wanted = request.cluster.ranks;
   if (place != kSimulated && wanted > 0 && wanted != ranks)

@@ -21,6 +21,9 @@ namespace driftmesh::job {
 /// are, if `policies` is given.
 void check(const Request& request, PlaceKind place, const balancer::PolicyMaker& policies = nullptr);
 
+/// Whether settings suit a process that knows of no other. Throws KeyError.
+void check_alone(const Request& request);
+
 /// Throws KeyError for values that do not fit the actual number of ranks.
 void check_ranks(const Request& request, PlaceKind place, std::int32_t ranks);
 

@@ -140,13 +140,24 @@ std::string Checkpoints::save(const RefinementInRounds& refinement) {
   std::map<SubdomainId, std::uint64_t> sizes;
   PackedParts parts(refinement);
   std::uint64_t bytes = 0;
+  const auto look_up = [&] {
+    if (rules_.saving) rules_.saving();
+  };
+  look_up();
   const std::exception_ptr fault = caught([&] {
     ranks_.agree([&] {
       if (ranks_.rank() == Rank{0}) heads = heads_();
-      for (const SubdomainId s : refinement.here()) sizes[s] = parts.size(s);
+      for (const SubdomainId s : refinement.here()) {
+        look_up();
+        sizes[s] = parts.size(s);
+      }
     });
     bytes = write_parts(
-        rules_.path, kCheckpointFile, heads, rules_.subdomains, sizes, [&](SubdomainId s) { return parts.take(s); },
+        rules_.path, kCheckpointFile, heads, rules_.subdomains, sizes,
+        [&](SubdomainId s) {
+          look_up();
+          return parts.take(s);
+        },
         ranks_);
   });
   NotedSignals::forget_request();

@@ -26,6 +26,7 @@ class Checkpoints {
     double every = 0;        ///< seconds between two checkpoints
     double fence_every = 1;  ///< seconds between two fences, where there are several processes
     std::size_t subdomains = 0;
+    std::function<void()> saving{};  ///< called again and again while a checkpoint is written; may be empty
   };
   /// `heads`: makes what the file says of the run besides its subdomains, on rank 0. `check_all`: throws LimitError if
   /// so many triangles of all processes are too many. `ranks` and `watch` outlive the object.

@@ -276,10 +276,11 @@ Section parts_section() {
            option("slice", "N")),
        key("run.silence", &R::patience, &R::Patience::silence,
            "Name a rank that has not answered for so long, with its host and what it did; 10m are ten minutes",
-           unit("seconds"), from(1), option("silence", "TIME"), places(kRanks), entry_points(kMesh | kLibrary)),
+           unit("seconds"), from(1), option("silence", "TIME"), places(kSubdomains | kRanks),
+           entry_points(kMesh | kLibrary)),
        key("run.give-up", &R::patience, &R::Patience::give_up,
            "End the run when a rank has not answered for so long; 0: wait for it", unit("seconds"), from(0),
-           option("give-up", "TIME"), places(kRanks), entry_points(kMesh | kLibrary)),
+           option("give-up", "TIME"), places(kSubdomains | kRanks), entry_points(kMesh | kLibrary)),
        key("run.sleep", &R::run, &R::Run::sleep,
            "Compress finished subdomains to about 10 bytes per triangle, from 40, until a neighbor needs them; also "
            "without it where memory would not suffice",

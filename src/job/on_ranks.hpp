@@ -18,6 +18,7 @@ class OnRanks : public Place {
 
   [[nodiscard]] PlaceKind kind() const override { return kRanks; }
   [[nodiscard]] std::int32_t ranks() const override { return team_.ranks(); }
+  [[nodiscard]] bool is_team() const override { return true; }
   [[nodiscard]] Processes processes() const override { return processes_of(team_); }
   [[nodiscard]] IdVector<Rank, double> speeds(const Request& request) const override;
   [[nodiscard]] bool leads() const override { return team_.leads(); }

@@ -82,6 +82,8 @@ class Place {
   [[nodiscard]] virtual PlaceKind kind() const = 0;
   /// Who shares the work: threads, ranks, simulated ranks.
   [[nodiscard]] virtual std::int32_t ranks() const = 0;
+  /// Whether these are processes that tell each other of themselves, even if there is only one.
+  [[nodiscard]] virtual bool is_team() const { return false; }
   /// Who shares the memory of the machine.
   [[nodiscard]] virtual Processes processes() const { return {}; }
   /// Whether the domain is cut.

@@ -57,11 +57,12 @@ std::vector<std::string> hosts_of(Team& team) {
 
 }  // namespace
 
-RanksProgress::RanksProgress(Team& team, const Request::Patience& patience)
+RanksProgress::RanksProgress(Team& team, const Request::Patience& patience, std::function<KeyText()> left)
     : channel_(team.open()),
       watched_{(to_int(team.rank()) + team.ranks() - 1) % team.ranks()},
       watcher_{(to_int(team.rank()) + 1) % team.ranks()},
       patience_(patience),
+      left_(std::move(left)),
       triangles_(to_index(team.ranks()), 0),
       told_(channel_->transport().now()),
       heard_(told_),
@@ -69,9 +70,22 @@ RanksProgress::RanksProgress(Team& team, const Request::Patience& patience)
   name_ = "rank " + to_string(watched_) + " on " + hosts_of(team)[to_index(watched_)];
 }
 
+void RanksProgress::note(const std::string& doing) {
+  if (!doing_.starts_with(doing + " since ")) doing_ = doing + " since " + time_of_day();
+}
+
+void RanksProgress::tell_now(std::int64_t own, const std::string& doing) {
+  const double now = channel_->transport().now();
+  const std::string before = doing_;
+  note(doing);
+  if (doing_ == before && now - told_ < kEvery) return;
+  told_ = heard_ = now;  // it has not listened itself
+  send(own, false);
+}
+
 bool RanksProgress::tell(std::int64_t own, const std::string& doing) {
   protocol::Transport& transport = channel_->transport();
-  if (!doing_.starts_with(doing + " since ")) doing_ = doing + " since " + time_of_day();
+  note(doing);
   const double now = transport.now();
   if (now - told_ < kEvery) return false;
   hear();
@@ -112,8 +126,9 @@ std::string RanksProgress::silence() {
   const std::string line = name_ + " has not answered for " + formatted("{:.0f}", quiet) + " s" +
                            (watched_doing_.empty() ? "" : ", " + watched_doing_);
   if (patience_.give_up > 0 && quiet >= patience_.give_up)
-    throw Keyed<Error>(KeyText::of("{}; given up after {} s ({run.give-up}). Nothing was written", line,
-                                   formatted("{:g}", patience_.give_up)));
+    throw Keyed<Error>(KeyText::of("{}; given up after {} s ({run.give-up}). {}", line,
+                                   formatted("{:g}", patience_.give_up),
+                                   left_ ? left_() : KeyText("Nothing was written")));
   if (quiet < next_line_) return {};
   next_line_ = 2 * quiet;
   is_named_ = true;

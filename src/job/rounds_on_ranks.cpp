@@ -1,15 +1,18 @@
 #include "job/rounds_on_ranks.hpp"
 
+#include <exception>
 #include <utility>
 #include <vector>
 
 #include "base/bytes.hpp"
 #include "job/domain.hpp"
+#include "job/pulse.hpp"
 #include "job/rank_report.hpp"
 #include "job/same_on_ranks.hpp"
 #include "job/thread_run.hpp"
 #include "job/with_ranks.hpp"
 #include "job/write_on_ranks.hpp"
+#include "runtime/plan_run.hpp"
 
 namespace driftmesh::job {
 namespace {
@@ -67,6 +70,21 @@ Order RoundsOnRanks::share(const std::function<Order()>& make) {
   });
 }
 
+/// What all throw together is thrown when nobody waits anymore to hear of others.
+void RoundsOnRanks::refine_together(ThreadRun& run, const Request::Patience& patience, Watch& watch) {
+  if (team().alone()) return run.refine();
+  Pulse pulse(team(), ranks_, patience, forecast_of(*run.plan()), watch, [&run] { return run.left(); });
+  std::exception_ptr failure;
+  try {
+    run.refine(&pulse);
+  } catch (const std::exception&) {
+    if (!ranks_.have_failed_together()) throw;
+    failure = std::current_exception();
+  }
+  pulse.close();
+  if (failure) std::rethrow_exception(failure);
+}
+
 std::unique_ptr<Refined> RoundsOnRanks::refine(Order&& order, const Limits& limits, const SizeField* size,
                                                Watch& watch) {
   return together(team(), ranks_, [&] {
@@ -77,8 +95,9 @@ std::unique_ptr<Refined> RoundsOnRanks::refine(Order&& order, const Limits& limi
       if (order.size != nullptr) require_same_size(team(), order.plan.decomposition, *order.size);
     });
     if (order.use.by == kMesh) reuse_memory(order.limits);
+    const Request::Patience patience = order.patience;
     auto run = std::make_unique<ThreadRun>(std::move(order), limits, threads_, watch, &ranks_);
-    run->refine();
+    refine_together(*run, patience, watch);
     return std::make_unique<RefinedInRounds>(team(), ranks_, std::move(run));
   });
 }

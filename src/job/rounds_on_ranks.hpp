@@ -10,6 +10,8 @@
 
 namespace driftmesh::job {
 
+class ThreadRun;
+
 /// The ranks of a team that refine in rounds: the mesh is the one that a process makes in subdomains by itself,
 /// whatever the number of ranks.
 class RoundsOnRanks final : public OnRanks {
@@ -25,6 +27,8 @@ class RoundsOnRanks final : public OnRanks {
                                                 Watch& watch) override;
 
  private:
+  void refine_together(ThreadRun& run, const Request::Patience& patience, Watch& watch);
+
   Ranks& ranks_;
   std::int32_t threads_;
 };

@@ -49,7 +49,7 @@ void ThreadRun::release() {
   order_.step.reset();
 }
 
-void ThreadRun::refine() {
+void ThreadRun::refine(Pulse* pulse) {
   double forecast = 0;
   for (const SubdomainId s : ids_of(order_.plan.owners))
     if (ranks_ == nullptr || holders_[s] == ranks_->rank())
@@ -60,9 +60,13 @@ void ThreadRun::refine() {
                                   .stalled = [this](const std::string& why) { watch_.stalled(why); }};
   if (inspects_at_once(order_.plan))
     watch.finished = [this](const Subdomain& subdomain, const SizeField* size) { note(subdomain, size); };
+  if (pulse != nullptr)
+    watch.stepped = [pulse](std::int64_t made, std::optional<SubdomainId> next) {
+      pulse->does(next ? "refining subdomain " + to_string(*next) : "waiting for its threads", made);
+    };
   std::optional<HeldOnRanks> others;
   if (ranks_ != nullptr) others.emplace(HeldOnRanks{*ranks_, holders_});
-  if (!order_.keeping.checkpoint.empty()) keep(watch);
+  if (!order_.keeping.checkpoint.empty()) keep(watch, pulse);
   refinement_.emplace(order_.plan, sizes_, std::move(watch), others);
   if (!order_.keeping.resume.empty()) ranks().agree([this] { take_up(); });
   refinement_->run();
@@ -70,12 +74,15 @@ void ThreadRun::refine() {
   checkpoints_.reset();
 }
 
-void ThreadRun::keep(RefinementInRounds::Watch& watch) {
+void ThreadRun::keep(RefinementInRounds::Watch& watch, Pulse* pulse) {
+  std::function<void()> saving;
+  if (pulse != nullptr) saving = [pulse] { pulse->is_at("writing a checkpoint"); };
   checkpoints_.emplace(
       Checkpoints::Rules{.path = order_.keeping.checkpoint,
                          .every = order_.keeping.every,
                          .fence_every = std::min(1.0, order_.keeping.every),
-                         .subdomains = order_.plan.decomposition.size()},
+                         .subdomains = order_.plan.decomposition.size(),
+                         .saving = std::move(saving)},
       ranks(), [this] { return order_.keeping.heads; }, [this](std::int64_t made) { check_number(limits_, made); },
       watch_);
   watch.halts = [this] { return checkpoints_->halts(); };
@@ -87,6 +94,14 @@ void ThreadRun::keep(RefinementInRounds::Watch& watch) {
       checkpoints_->end_for(std::current_exception());
     }
   };
+}
+
+KeyText ThreadRun::left() const {
+  const bool has_saved = checkpoints_ && checkpoints_->record().count > 0;
+  const std::string& kept = has_saved ? order_.keeping.checkpoint : order_.keeping.resume;
+  if (kept.empty()) return "Nothing was written";
+  return KeyText::of("What was done until the last checkpoint is in {}: go on with driftmesh mesh {run.resume} {}",
+                     kept, kept);
 }
 
 void ThreadRun::take_up() {

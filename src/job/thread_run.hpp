@@ -14,6 +14,7 @@
 #include "job/limits.hpp"
 #include "job/order.hpp"
 #include "job/place.hpp"
+#include "job/pulse.hpp"
 #include "job/rank_report.hpp"
 #include "job/record.hpp"
 #include "job/watch.hpp"
@@ -32,8 +33,10 @@ class ThreadRun final : public Refined {
   ~ThreadRun() override;
 
   /// Throws what the work on a subdomain or the watch throws, and LimitError at a limit. With checkpoints, one is left
-  /// then (see Checkpoints).
-  void refine();
+  /// then (see Checkpoints). `pulse`: that of this rank, or null.
+  void refine(Pulse* pulse = nullptr);
+  /// What is left of the run meanwhile, if it ends at once.
+  [[nodiscard]] KeyText left() const;
 
   // After refine():
 
@@ -52,7 +55,7 @@ class ThreadRun final : public Refined {
   /// Frees the subdomains and what they need.
   void release();
   /// Has checkpoints made at fences.
-  void keep(RefinementInRounds::Watch& watch);
+  void keep(RefinementInRounds::Watch& watch, Pulse* pulse);
   /// Goes on with what a checkpoint has of subdomains that are here.
   void take_up();
   void note(const Subdomain& subdomain, const SizeField* size);

@@ -5,6 +5,7 @@ usage: checkpoint_test.py DRIFTMESH [unittest options]
 """
 
 import json
+import os
 import signal
 import subprocess
 import time
@@ -92,6 +93,26 @@ class Checkpoints(program.Cli):
             self.assertGreater(record["checkpoints"]["count"], 0)
             self.assertEqual(self.digest_of("--resume", "other.kept"), whole)
 
+    def test_a_rank_that_hangs_is_named_and_given_up_and_the_rest_goes_on(self):
+        whole = self.digest_of(*SLOW, "--reproducible")
+        kept = self.folder / "run.kept"
+        command = ["mpiexec", "-n", "3", program.PATH, "mesh", *SLOW, "--checkpoint", "run.kept", "--every", "0.3", "--silence", "1", "--give-up", "4",
+                   "--quiet"]
+        run = subprocess.Popen(command, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                               env=program.RANKS_ENVIRONMENT)
+        while not kept.exists():
+            self.assertIsNone(run.poll())
+            time.sleep(0.01)
+        ranks = subprocess.run(["pgrep", "-P", str(run.pid)], capture_output=True, text=True, check=True).stdout.split()
+        os.kill(int(ranks[1]), signal.SIGSTOP)
+        errors = run.communicate(timeout=program.MESHER_SECONDS)[1]
+        self.assertNotEqual(run.returncode, 0, errors)
+        doing = r"(refining subdomain \d+|waiting for other ranks|writing a checkpoint) since \d\d:\d\d:\d\d"
+        self.assertRegex(errors, rf"rank 1 on \S+ has not answered for 1 s, {doing}; the others wait for it")
+        self.assertRegex(errors, rf"rank 1 on \S+ has not answered for 4 s, {doing}; given up after 4 s \(--give-up\)")
+        self.assertIn("go on with driftmesh mesh --resume run.kept", errors)
+        self.assertEqual(self.digest_of("--resume", "run.kept", ranks=2), whole)
+
     def test_what_does_not_go_together(self):
         self.stopped_by_limit()
         self.refuse("mesh", "--resume", "run.kept", "--area", "2", code=2, says=["--area is 2", "run.kept has 1.5"])
@@ -100,6 +121,7 @@ class Checkpoints(program.Cli):
         self.refuse("mesh", "--config", "settings.yaml", code=1, says=["settings.yaml:2", "is 3"])
         self.refuse("mesh", *REQUEST, "--checkpoint", "a", "--method", "coupled", code=2, says=["--method", "--checkpoint"])
         self.refuse("mesh", *REQUEST, "--every", "5s", "--reproducible", code=2, says=["--every", "--checkpoint"])
+        self.refuse("mesh", *REQUEST, "--reproducible", "--give-up", "5m", code=2, says=["--give-up", "alone"])
         self.refuse("mesh", *REQUEST, "--checkpoint", "-", code=2, says=["--checkpoint is standard output"])
         self.refuse("mesh", *REQUEST, "--checkpoint", "none/a", code=1, says=["none/a"])
         self.refuse("mesh", "--resume", "none", code=1, says=["none"])

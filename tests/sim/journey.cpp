@@ -100,20 +100,11 @@ std::string JourneyPlan::describe() const {
   return text;
 }
 
-JourneyCounts& JourneyCounts::operator+=(const JourneyCounts& other) {
-  for (const auto count :
-       {&JourneyCounts::journeys, &JourneyCounts::in_rounds, &JourneyCounts::lives, &JourneyCounts::resumed,
-        &JourneyCounts::anew, &JourneyCounts::saves, &JourneyCounts::refused})
-    this->*count += other.*count;
-  for (const auto& [kind, count] : other.faults) faults[kind] += count;
-  oldest = std::max(oldest, other.oldest);
-  return *this;
-}
-
 std::string words_of(const JourneyCounts& counts) {
   std::string text = fmt::format(
-      "{} journeys, {} in rounds; {} runs, {} resumed, {} begun anew; {} checkpoints, {} refused", counts.journeys,
-      counts.in_rounds, counts.lives, counts.resumed, counts.anew, counts.saves, counts.refused);
+      "{} journeys, {} in rounds; {} runs, {} resumed, {} begun anew; {} checkpoints, {} refused, {} given up",
+      counts.journeys, counts.in_rounds, counts.lives, counts.resumed, counts.anew, counts.saves, counts.refused,
+      counts.given_up);
   for (const auto& [kind, count] : counts.faults) text += fmt::format(", {} {}", count, name_of(kind));
   return text;
 }
@@ -155,6 +146,7 @@ class Journeys::Travel {
     ++(resumes_ ? counts.resumed : counts.anew);
     counts.saves += life.saves;
     counts.refused += life.refused;
+    counts.given_up += life.abort.empty() ? 0 : 1;
     for (const Fault& fault : life.met) ++counts.faults[fault.kind];
     if (plan_.in_rounds) counts.oldest = std::max(counts.oldest, overdue(life));
     return life;
@@ -265,7 +257,7 @@ LifePlan Journeys::life_of(const JourneyPlan& plan) {
   request.run.method = plan.in_rounds ? job::Method::kRounds : job::Method::kCoupled;
   request.run.presplit = plan.presplit ? Presplit::kOn : Presplit::kOff;
   request.run.slice = plan.slice;
-  if (!plan.in_rounds) request.patience = {.silence = 4, .give_up = kGiveUp};
+  request.patience = {.silence = 4, .give_up = kGiveUp};
   life.given.input = &domain.input();
   life.given.decomposition = &domain.cut(plan.subdomains);
   return life;

@@ -36,11 +36,10 @@ struct JourneyPlan {
 
 /// What has happened, in numbers that add up.
 struct JourneyCounts {
-  std::int64_t journeys = 0, in_rounds = 0, lives = 0, resumed = 0, anew = 0, saves = 0, refused = 0;
+  std::int64_t journeys = 0, in_rounds = 0, lives = 0, resumed = 0, anew = 0, saves = 0, refused = 0, given_up = 0;
   std::map<Fault::Kind, std::int64_t> faults;
   double oldest =
       0;  ///< seconds since the last checkpoint of a run that nothing delayed, when it was ended, over what was due
-  JourneyCounts& operator+=(const JourneyCounts& other);
 };
 
 class Journeys {

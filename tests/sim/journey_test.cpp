@@ -76,6 +76,7 @@ TEST_CASE("runs that are killed, hung and slowed down end with the mesh of one t
   CHECK(counts.anew > counts.journeys);
   CHECK(counts.saves > counts.lives);
   CHECK(counts.refused > 0);
+  CHECK(counts.given_up > counts.journeys / 20);
   for (const Fault::Kind kind :
        {Fault::Kind::kKill, Fault::Kind::kKillAtWrite, Fault::Kind::kHang, Fault::Kind::kTerminate, Fault::Kind::kPause,
         Fault::Kind::kSlow, Fault::Kind::kLate, Fault::Kind::kFull}) {

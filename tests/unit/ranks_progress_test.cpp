@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <deque>
 #include <map>
 #include <memory>
@@ -148,4 +149,40 @@ TEST_CASE("a rank that is done is not missed, and rank 0 has the triangles of al
   });
   CHECK(said.empty());
   CHECK(run.all[0]->triangles() == 714);
+}
+
+TEST_CASE("what a rank has sent before it was done may arrive after that") {
+  Run run(3, {.silence = 2});
+  run.pass(1);
+  run.network.now += 1;
+  static_cast<void>(run.all[1]->tell(7, "refining subdomain 1"));
+  std::map<std::int32_t, std::vector<std::string>> said;
+  bool first = true;
+  run.all[1]->close(7, [&] {
+    if (!std::exchange(first, false)) return;
+    for (auto& mail : run.network.mail) std::reverse(mail.begin(), mail.end());
+    said = run.pass(20, 1);
+    run.all[2]->close(9, [] {});
+    run.all[0]->close(5, [] {});
+  });
+  CHECK(said.empty());
+}
+
+TEST_CASE("a rank that does not listen tells what it is at, now and then, and accuses nobody") {
+  Run run(2, {.silence = 10});
+  run.pass(1);
+  std::size_t told = 0;
+  for (const double end = run.network.now + 30; run.network.now < end; run.network.now += 0.05) {
+    const std::size_t before = run.network.mail[0].size();
+    run.all[1]->tell_now(1, "writing a checkpoint");
+    told += run.network.mail[0].size() - before;
+    static_cast<void>(run.all[0]->tell(1, "waiting for other ranks"));
+    CHECK(run.all[0]->silence().empty());
+  }
+  CHECK(told > 100);
+  CHECK(told < 200);
+  CHECK(run.all[1]->silence().empty());
+  const auto said = run.pass(12, 1);
+  REQUIRE(said.count(0) == 1);
+  CHECK(said.at(0).front().find("writing a checkpoint since ") != std::string::npos);
 }

@@ -131,6 +131,7 @@ class RefinementInRounds::Round {
     if (failed_) return protocol::StepResult::kFinished;
     const protocol::StepResult result = ranks_[r].loop->step();
     if (r == kCalling && all_.watch_.progress) show_progress();
+    if (r == kCalling && all_.watch_.stepped) all_.watch_.stepped(triangles(), ranks_[r].loop->next());
     if (result != protocol::StepResult::kFinished && all_.watch_.halts && all_.watch_.halts()) halt(*ranks_[r].loop);
     return result;
   }

@@ -42,6 +42,9 @@ class RefinementInRounds {
   struct Watch {
     /// Called by the calling thread from time to time with the triangles of all threads so far.
     std::function<void(std::int64_t triangles)> progress{};
+    /// Called by the calling thread between two slices, with the triangles of all threads so far and the subdomain that
+    /// this one works on next.
+    std::function<void(std::int64_t triangles, std::optional<SubdomainId> next)> stepped{};
     /// Called by each thread after a slice of work, at the same time as others.
     std::function<void(std::int64_t triangles)> check{};
     /// Called by each thread between two slices, at the same time as others: whether this process is to come to a
