@@ -10,11 +10,16 @@
 
 namespace driftmesh::adapt {
 
+const char* words_of(FieldPlace place) {
+  if (place == FieldPlace::kPoints) return "points";
+  return place == FieldPlace::kCorners ? "corners of triangles" : "triangles";
+}
+
 Field make_field(const Mesh& mesh, const std::string& name, std::vector<double> values, FieldPlace place,
                  Transfer how) {
   const bool at_points = place == FieldPlace::kPoints, at_corners = place == FieldPlace::kCorners;
   const std::size_t places = at_points ? mesh.points.size() : (at_corners ? 3 : 1) * mesh.triangles.size();
-  const char* const what = at_points ? "points" : at_corners ? "corners of triangles" : "triangles";
+  const char* const what = words_of(place);
   const bool fits = places == 0 ? values.empty() : !values.empty() && values.size() % places == 0;
   if (!fits)
     throw Error("attach: field '" + name + "' has " + std::to_string(values.size()) + " values for " +

@@ -22,6 +22,9 @@ struct Field {
 };
 using Fields = std::map<std::string, Field>;
 
+/// "points", "triangles" or "corners of triangles".
+[[nodiscard]] const char* words_of(FieldPlace place);
+
 /// Throws Error if the number of values does not suit the mesh, or what is asked for is not possible. Without places,
 /// the number of components is 0: others know it.
 [[nodiscard]] Field make_field(const Mesh& mesh, const std::string& name, std::vector<double> values, FieldPlace place,

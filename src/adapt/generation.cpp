@@ -2,9 +2,18 @@
 
 #include <utility>
 
+#include "adapt/demand.hpp"
 #include "distributed/assembly.hpp"
 
 namespace driftmesh::adapt {
+
+Part first_part(SubdomainMesh mesh, const QualityBounds& bounds, Lengths made_for) {
+  Part part{.mesh = std::make_shared<const SubdomainMesh>(std::move(mesh))};
+  part.asked = demand_of(part.mesh->mesh, bounds, made_for).triangles;
+  if (part.asked > 0) part.density = static_cast<double>(part.mesh->mesh.live_triangles()) / part.asked;
+  if (!made_for.empty()) part.made_for = std::make_shared<const Lengths>(std::move(made_for));
+  return part;
+}
 
 Generation assemble(const Decomposition& decomposition, const Pslg& pslg, Parts parts, Ranks& ranks) {
   Generation made;

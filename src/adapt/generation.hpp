@@ -11,6 +11,7 @@
 #include "distributed/ranks.hpp"
 #include "driftmesh/distributed_piece.hpp"
 #include "driftmesh/pslg.hpp"
+#include "mesh/bounds.hpp"
 
 namespace driftmesh::adapt {
 
@@ -36,6 +37,9 @@ struct Generation {
 
   [[nodiscard]] bool is_here(SubdomainId s) const { return parts[s].mesh != nullptr; }
 };
+
+/// The part that a session begins with. `made_for`: lengths by which it was made, at its vertices; empty: by none.
+[[nodiscard]] Part first_part(SubdomainMesh mesh, const QualityBounds& bounds, Lengths made_for);
 
 /// `pslg`: see PieceAssembly::piece. Collective.
 [[nodiscard]] Generation assemble(const Decomposition& decomposition, const Pslg& pslg, Parts parts, Ranks& ranks);

@@ -75,17 +75,19 @@ Fields without_values(const Fields& fields, const DistributedPiece& piece) {
   return all;
 }
 
-Bytes pack(const Generation& generation, SubdomainId s, const Fields& fields) {
-  const Part& part = generation.parts[s];
+Bytes pack(SubdomainId s, const Part& part, const ValuesOnPart& values) {
   const RefinerState state = state_of(part);
   const std::vector<SplitPoint<GlobalRootId>> none;
   ByteWriter writer;
   writer.array(driftmesh::pack(SubdomainView{s, true, none, SubdomainView::Body{*part.mesh, state, part.asked}}));
   writer.value(part.density);
-  const ValuesOnPart all = values_on(generation, s, fields);
-  writer.value(std::uint64_t{all.size()});
-  for (const std::vector<double>& values : all) writer.array(values);
+  writer.value(std::uint64_t{values.size()});
+  for (const std::vector<double>& of_field : values) writer.array(of_field);
   return writer.take();
+}
+
+Bytes pack(const Generation& generation, SubdomainId s, const Fields& fields) {
+  return pack(s, generation.parts[s], values_on(generation, s, fields));
 }
 
 Parcel unpack_parcel(std::span<const std::byte> bytes, Source source) {

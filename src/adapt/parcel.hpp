@@ -30,6 +30,7 @@ struct Parcel {
 
 /// Contains the packed form of the subdomain (docs/file-formats.md): a mesh that goes on from it is bit for bit the one
 /// that would have gone on from the part.
+[[nodiscard]] Bytes pack(SubdomainId s, const Part& part, const ValuesOnPart& values);
 [[nodiscard]] Bytes pack(const Generation& generation, SubdomainId s, const Fields& fields);
 /// Throws Error for bytes that are no such parcel.
 [[nodiscard]] Parcel unpack_parcel(std::span<const std::byte> bytes, Source source);

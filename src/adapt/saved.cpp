@@ -79,18 +79,15 @@ Saved read_own(const std::string& path, const Ranks& ranks) {
 
 }  // namespace
 
-void save(const std::string& path, const SavedHead& head, const Generation& generation, const Fields& fields,
-          Ranks& ranks) {
+void save(const std::string& path, const SavedHead& head, const std::vector<SubdomainId>& here,
+          const std::function<Bytes(SubdomainId)>& packed, Ranks& ranks) {
   std::map<std::string, Bytes> heads;
-  std::map<SubdomainId, Bytes> own;
   std::map<SubdomainId, std::uint64_t> sizes;
   ranks.agree([&] {
     if (ranks.rank() == Rank{0}) heads[kAdaptiveMeshFile.head] = bytes_of(head);
-    for (const SubdomainId s : generation.here) sizes[s] = (own[s] = pack(generation, s, fields)).size();
+    for (const SubdomainId s : here) sizes[s] = packed(s).size();
   });
-  write_parts(
-      path, kAdaptiveMeshFile, heads, generation.parts.size(), sizes, [&](SubdomainId s) { return std::move(own[s]); },
-      ranks);
+  write_parts(path, kAdaptiveMeshFile, heads, head.plan.decomposition.size(), sizes, packed, ranks);
 }
 
 Saved read_saved(const std::string& path, Ranks& ranks) {

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "adapt/fields.hpp"
-#include "adapt/generation.hpp"
 #include "adapt/parcel.hpp"
 #include "base/bytes.hpp"
 #include "distributed/ranks.hpp"
@@ -25,11 +26,12 @@ struct SavedHead {
   Bytes more;     ///< what only the caller knows
 };
 
-/// Writes the session of a generation into one HDF5 file, each rank its parts. The file appears when all of it is
+/// Writes a session into one HDF5 file, each rank the parts that are `here`: packed(s) is the parcel of one of them,
+/// and is called twice for each, so that they need not be in memory together. The file appears when all of it is
 /// written, or else one that was there stays. Errors, on all ranks: FileError, InputError for a path that cannot hold a
 /// regular file. Collective.
-void save(const std::string& path, const SavedHead& head, const Generation& generation, const Fields& fields,
-          Ranks& ranks);
+void save(const std::string& path, const SavedHead& head, const std::vector<SubdomainId>& here,
+          const std::function<Bytes(SubdomainId)>& packed, Ranks& ranks);
 
 /// A session as a file has it.
 struct Saved {

@@ -66,9 +66,7 @@ std::size_t same_components(const std::string& name, std::size_t own, Ranks& ran
 }
 
 std::string words_of(FieldPlace place, Transfer how) {
-  return std::string(place == FieldPlace::kPoints    ? "at points"
-                     : place == FieldPlace::kCorners ? "at corners"
-                                                     : "at triangles") +
+  return std::string("at ") + adapt::words_of(place) +
          (how == Transfer::kConserve ? ", conserving" : ", by interpolation");
 }
 
@@ -79,13 +77,9 @@ Session::Session(Start start, const AdaptiveOptions& options, std::function<void
   means.ranks.agree([&] { require_sound(options); });
   number_ = number_of_rank_0(means.ranks);
   Parts parts(plan_.decomposition.size());
-  for (auto& [s, mesh] : start.parts) {
-    Part& part = parts[s];
-    part.mesh = std::make_shared<const SubdomainMesh>(std::move(mesh));
-    if (!start.lengths.empty()) part.made_for = std::make_shared<const Lengths>(std::move(start.lengths.at(s)));
-    part.asked = demand_of(part.mesh->mesh, plan_.bounds, part.made_for ? *part.made_for : Lengths()).triangles;
-    if (part.asked > 0) part.density = static_cast<double>(part.mesh->mesh.live_triangles()) / part.asked;
-  }
+  for (auto& [s, mesh] : start.parts)
+    parts[s] =
+        first_part(std::move(mesh), plan_.bounds, start.lengths.empty() ? Lengths() : std::move(start.lengths.at(s)));
   present_ = assembled(std::move(parts), means.ranks);
 }
 
@@ -114,7 +108,8 @@ void Session::save(const std::string& path, Bytes more, const Means& means) {
                  .generation = report_.generation,
                  .fields = fields_without_values(fields_),
                  .more = std::move(more)};
-  adapt::save(path, head, present_, fields_, means.ranks);
+  adapt::save(
+      path, head, present_.here, [&](SubdomainId s) { return pack(present_, s, fields_); }, means.ranks);
 }
 
 Generation Session::assembled(Parts parts, Ranks& ranks) const {

@@ -15,8 +15,8 @@ void AdaptiveCore::begin(Call& call, job::Place& place, const AdaptiveOptions& a
                          const std::function<void(Mesh&)>& finish) {
   job::RunRecord record;
   job::LiveMesh live;
-  ranks.alike([&] { live = job::make(call.asked(job::kSubdomains), place, record, call.watch())->take_live(); });
-  live.plan.bounds.plain.area = call.request().bounds.area;  // bounds that describe it alone are left behind
+  ranks.alike(
+      [&] { live = job::make(call.asked(job::kSubdomains), place, record, call.watch())->take_live(call.request()); });
   limits_ = live.limits;
   rasters_ = std::move(live.rasters);
   session_.emplace(

@@ -15,6 +15,7 @@
 #include "app/adapt_command.hpp"
 #include "app/adapt_summary.hpp"
 #include "app/commands.hpp"
+#include "app/mesh_input.hpp"
 #include "app/new_domain.hpp"
 #include "app/number_map.hpp"
 #include "app/progress_line.hpp"
@@ -159,7 +160,7 @@ void run_adapt(const AdaptCommand& command) {
   if (!command.outline.empty())
     for (const std::string& file : input_files(command.outline)) files.reads(file, "--outline");
   StageNotes notes(!command.quiet);
-  Mesh mesh = job::timed(notes, "read", [&] { return read_mesh(command.mesh, command.reading); });
+  Mesh mesh = job::timed(notes, "read", [&] { return read_any_mesh(command.mesh, command.reading); });
   const std::size_t before = mesh.triangles.size();
   std::vector<patch::NamedField> named = patch::take_point_data(mesh);
   patch::Order order{.options = command.options, .min_angle = command.angle};
@@ -212,7 +213,7 @@ std::vector<cli::Option> adapt_options(AdaptCommand& command) {
       {.kind = cli::Option::Kind::kPositional,
        .name = "mesh",
        .value = "MESH",
-       .help = "The mesh: " + mesh_files_read(),
+       .help = "The mesh: " + mesh_inputs(),
        .required = true,
        .completes = cli::Option::Completes::kFile,
        .take = cli::into(command.mesh)},

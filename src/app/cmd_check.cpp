@@ -6,13 +6,16 @@
 #include <iostream>
 #include <iterator>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "adapt/fields.hpp"
+#include "adapt/saved.hpp"
+#include "app/checked_mesh.hpp"
 #include "app/commands.hpp"
+#include "app/mesh_input.hpp"
 #include "app/number_map.hpp"
 #include "app/request_line.hpp"
 #include "app/run_files.hpp"
@@ -22,17 +25,12 @@
 #include "driftmesh/error.hpp"
 #include "driftmesh/files.hpp"
 #include "driftmesh/repair.hpp"
-#include "gis/coordinates.hpp"
-#include "io/mesh_file.hpp"
 #include "job/check.hpp"
 #include "job/contour.hpp"
 #include "job/domain.hpp"
 #include "job/files.hpp"
 #include "job/input_file.hpp"
-#include "job/memory.hpp"
 #include "job/rasters.hpp"
-#include "mesh/digest.hpp"
-#include "mesh/settle_points.hpp"
 #include "sizing/across.hpp"
 #include "verify/report_text.hpp"
 #include "verify/stayed.hpp"
@@ -44,9 +42,8 @@ namespace {
 constexpr int kRejected = 1;
 constexpr int kUnreadable = 2;
 
-// Meters, of a mesh that may have been in longitudes and latitudes meanwhile: three units of the last place at 180
-// degrees, and what these may do to the circumcircles of triangles.
-constexpr double kRounded = 1e-8, kSlack = 100 * kRounded;
+// Of a mesh that may have been in longitudes and latitudes meanwhile: what that may do to circumcircles of triangles.
+constexpr double kSlack = 100 * CheckedMesh::kRounded;
 
 struct CheckOptions {
   std::string mesh;
@@ -58,6 +55,7 @@ struct CheckOptions {
   std::unique_ptr<const SizeField> size;
   std::shared_ptr<const Raster> depth;
   GivenKeys bounds;
+  bool angle_given = false;
   bool quiet = false;
   std::size_t threads = 0;  // 0: as many as the machine has cores
   ReadOptions reading;
@@ -79,86 +77,38 @@ std::optional<InputFile> read_and_repair(CheckOptions& options, const job::Reque
   return input;
 }
 
-/// The mesh to check, in one piece or in several that are read one by one.
-class CheckedMesh {
- public:
-  CheckedMesh(const std::string& path, const ReadOptions& reading) {
-    if (is_in_pieces(path))
-      files_.emplace(path, reading);
-    else
-      whole_ = read_mesh(path, reading);
+/// "'u' at points (2 values each), 'q' at triangles"
+std::string list_of_fields(const adapt::Fields& fields) {
+  std::string list;
+  for (const auto& [name, field] : fields) {
+    list += (list.empty() ? "'" : ", '") + name + "' at " + adapt::words_of(field.place);
+    if (field.components != 1) list += fmt::format(" ({} values each)", field.components);
   }
+  return list.empty() ? "no fields" : list;
+}
 
-  [[nodiscard]] Box box() const {
-    if (!files_) return Box::of(whole_.points);
-    Box box;
-    for (std::size_t k = 0; k < files_->size(); ++k) box.extend(Box::of(files_->read(k).points));
-    return box;
-  }
-
-  /// What the coordinates of its points are; empty: not known.
-  [[nodiscard]] std::string projection() const {
-    const std::string text = files_ && files_->size() > 0 ? files_->read(0).coordinates : whole_.coordinates;
-    return coordinates_from(text).value_or(Coordinates{}).projection;
-  }
-
-  /// Points of a mesh that knows where it is on the globe, within what rounding moves longitudes and latitudes, become
-  /// these, which are those of the input.
-  void settle_on(std::vector<Point> places) {
-    places_ = std::move(places);
-    settle(whole_);
-  }
-
-  [[nodiscard]] VerifyReport verify(const Pslg* input, const VerifyOptions& options) {
-    if (files_) return verify_files(input, options);
-    digest_ = mesh_digest(whole_);
-    return input != nullptr ? driftmesh::verify(whole_, *input, options) : driftmesh::verify(whole_, options);
-  }
-  /// After verify.
-  [[nodiscard]] std::uint64_t digest() const { return digest_; }
-
- private:
-  /// The digest of the whole mesh is the sum of those of the pieces.
-  VerifyReport verify_files(const Pslg* input, VerifyOptions options) {
-    std::vector<std::uint64_t> digests(files_->size());
-    const Pieces pieces{files_->size(), [&](std::size_t k, const Pieces::Show& show) {
-                          Mesh piece = files_->read(k);
-                          settle(piece);
-                          digests[k] = mesh_digest(piece);
-                          show(piece);
-                        }};
-    options.threads = std::min(options.threads, pieces_at_once());
-    VerifyReport report = verify_pieces(pieces, input, options);
-    digest_ = std::accumulate(digests.begin(), digests.end(), std::uint64_t{0});
-    return report;
-  }
-
-  /// As many as fit into half of the free memory; each takes about three times its file.
-  [[nodiscard]] std::size_t pieces_at_once() const {
-    const std::uint64_t free = job::free_memory(), each = 3 * files_->most_bytes();
-    return free == 0 || each == 0 ? 1 : std::max<std::uint64_t>(1, free / 2 / each);
-  }
-
-  void settle(Mesh& mesh) const {
-    if (!mesh.coordinates.empty()) settle_points(mesh.points, places_, kRounded);
-  }
-
-  std::optional<PieceFiles> files_;
-  Mesh whole_;
-  std::vector<Point> places_;
-  std::uint64_t digest_ = 0;
-};
+/// A saved adaptive mesh must meet the bounds of its session, unless others are given.
+void judge_by(const adapt::SavedHead& session, CheckOptions& options) {
+  const QualityBounds& bounds = session.plan.bounds;
+  if (!options.angle_given) options.verify.min_angle = bounds.min_angle;
+  if (options.verify.plain.area == 0) options.verify.plain.area = bounds.plain.area;
+  options.verify.plain.region_areas = options.verify.plain.region_areas && bounds.plain.region_areas;
+  if (!options.quiet)
+    print(fmt::format("session        generation {}, {}\n", session.generation, list_of_fields(session.fields)));
+}
 
 VerifyReport read_and_verify(CheckOptions& options, const job::Request& request) {
   CheckedMesh mesh(options.mesh, options.reading);
+  const adapt::SavedHead* const session = mesh.session();
+  if (session != nullptr) judge_by(*session, options);
   job::Request::Input asked = request.input;
   if (const std::string own = mesh.projection(); !own.empty()) {
     if (asked.projection == "auto") asked.projection = own;
-    options.verify.delaunay_slack = kSlack;
+    if (session == nullptr) options.verify.delaunay_slack = kSlack;
   }
   const std::optional<InputFile> file = read_and_repair(options, asked);
   if (file) mesh.settle_on(file->pslg.points);
-  const Pslg* const input = file ? &file->pslg : nullptr;
+  const Pslg* const input = file ? &file->pslg : session != nullptr ? &session->pslg : nullptr;
   const bool sized = request.sizing.varies() || request.sizing.longest > 0 || request.sizing.courant_step > 0;
   SizingOptions sizes = input != nullptr ? job::sizing_of(request.sizing, *input)
                                          : job::sizing_of(request.sizing, sized ? mesh.box() : Box{});
@@ -187,8 +137,9 @@ bool keeps_what_was(const CheckOptions& options) {
   if (options.against.empty()) return true;
   std::optional<NumberMap> map;
   if (!options.map.empty()) map = read_number_map(options.map);
-  const StayedReport report = compare_stayed(read_mesh(options.against, options.reading),
-                                             read_mesh(options.mesh, options.reading), map, options.verify.max_listed);
+  const StayedReport report =
+      compare_stayed(read_any_mesh(options.against, options.reading), read_any_mesh(options.mesh, options.reading), map,
+                     options.verify.max_listed);
   if (!options.quiet) print("against        " + options.against + "\n" + stayed_text(report, map.has_value()));
   if (report.contradictions > 0)
     print(fmt::format("rejected: contradicts what {} has{} ({})\n", options.against, map ? ", or its map" : "",
@@ -227,7 +178,10 @@ std::vector<cli::Option> bound_options(CheckOptions& options) {
                  .value = "DEGREES",
                  .help = "Smallest angle, except where the input forces smaller ones",
                  .group = kGroup,
-                 .take = cli::into(options.verify.min_angle, {0, 60})});
+                 .take = [&options, into = cli::into(options.verify.min_angle, {0, 60})](const std::string& text) {
+                   into(text);
+                   options.angle_given = true;
+                 }});
   return all;
 }
 
@@ -236,7 +190,7 @@ std::vector<cli::Option> check_options(CheckOptions& options) {
       {.kind = cli::Option::Kind::kPositional,
        .name = "mesh",
        .value = "MESH",
-       .help = "The mesh: " + mesh_files_read(),
+       .help = "The mesh: " + mesh_inputs(),
        .required = true,
        .completes = cli::Option::Completes::kFile,
        .take = cli::into(options.mesh)},
@@ -244,7 +198,7 @@ std::vector<cli::Option> check_options(CheckOptions& options) {
        .name = "input",
        .value = "INPUT",
        .help = "The input that the mesh was made from; if given, the mesh must cover its domain and contain its "
-               "segments, markers, points and regions",
+               "segments, markers, points and regions. A saved adaptive mesh has it in its file",
        .completes = cli::Option::Completes::kFile,
        .take = cli::into(options.input)},
       {.name = "against",

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "app/commands.hpp"
+#include "app/mesh_input.hpp"
 #include "app/run_files.hpp"
 #include "cli/values.hpp"
 #include "driftmesh/error.hpp"
@@ -82,7 +83,7 @@ void run_convert(const ConvertOptions& options) {
   FileRegistry files;
   register_mesh_input(files, options.input, "INPUT", options.reading);
   register_mesh_output(files, options.output, "OUTPUT");
-  Mesh mesh = read_mesh(options.input, options.reading);
+  Mesh mesh = read_any_mesh(options.input, options.reading);
   require_known(options, mesh);
   Names names = options.names;
   names.markers.merge(mesh.names.markers);
@@ -105,7 +106,7 @@ cli::Command convert_command() {
               {{.kind = cli::Option::Kind::kPositional,
                 .name = "input",
                 .value = "INPUT",
-                .help = "The mesh: " + mesh_files_read(),
+                .help = "The mesh: " + mesh_inputs(),
                 .required = true,
                 .completes = cli::Option::Completes::kFile,
                 .take = cli::into(options->input)},

@@ -26,8 +26,12 @@ struct MeshCommand {
 /// What was asked for makes the mesh in rounds, unless another method is asked for.
 void imply_rounds(job::Request& request, const std::set<std::string>& given, bool reproducible) {
   const job::Request::Run& run = request.run;
-  if (!reproducible && run.checkpoint.empty() && run.resume.empty()) return;
-  const char* const why = reproducible ? "reproducible" : run.resume.empty() ? "run.checkpoint" : "run.resume";
+  const char* const why = reproducible                      ? "reproducible"
+                          : !run.resume.empty()             ? "run.resume"
+                          : !run.checkpoint.empty()         ? "run.checkpoint"
+                          : !request.output.session.empty() ? "output.session"
+                                                            : nullptr;
+  if (why == nullptr) return;
   if (given.contains("run.method") && run.method != job::Method::kRounds)
     throw job::KeyError("run.method", KeyText::of("is not rounds, which {} implies", KeyText::key(why)),
                         "remove one of them");
@@ -100,6 +104,7 @@ cli::Command mesh_command() {
                        "driftmesh mesh bay.poly --size \"20 + 0.1*abs(x)\" --json run.json",
                        "driftmesh mesh bay.poly --size \"20 + 0.1*distance(1)\" --size-max 500 -o bay.vtu",
                        "mpirun -n 4 driftmesh mesh bay.poly --area 50 -o bay.pvtu",
+                       "driftmesh mesh bay.poly --area 5000 --save flow.h5",
                        "mpirun -n 4 driftmesh mesh bay.poly --area 50 --checkpoint bay.kept --every 10m -o bay.pvtu",
                        "mpirun -n 8 driftmesh mesh --resume bay.kept -o bay.pvtu"},
           .exit_codes = "0 done, 1 error, 2 wrong usage, 3 stopped by a limit",

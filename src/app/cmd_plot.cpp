@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/mesh_input.hpp"
 #include "app/repair_view.hpp"
 #include "app/request_line.hpp"
 #include "app/run_files.hpp"
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
 #include "driftmesh/error.hpp"
-#include "io/mesh_file.hpp"
 #include "job/check.hpp"
 #include "job/contour.hpp"
 #include "job/domain.hpp"
@@ -144,7 +144,7 @@ void run_plot(const cli::Call& call, PlotCommand& command) {
   if (holds_input(command.input))
     plot(job::read_domain_file(command.input, {}).pslg, command.output, command.plot);
   else
-    plot(read_mesh(command.input, command.reading), command.output, command.plot);
+    plot(read_any_mesh(command.input, command.reading), command.output, command.plot);
 }
 
 std::vector<cli::Option> plot_options(PlotCommand& command) {
@@ -152,7 +152,7 @@ std::vector<cli::Option> plot_options(PlotCommand& command) {
       {.kind = cli::Option::Kind::kPositional,
        .name = "input",
        .value = "INPUT",
-       .help = "A mesh (" + mesh_files_read() +
+       .help = "A mesh (" + mesh_inputs() +
                ") or an input (.poly, or a .node without .ele). - reads a .vtu from standard input, -.msh and -.poly "
                "the other formats",
        .completes = cli::Option::Completes::kFile,

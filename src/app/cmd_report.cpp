@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/mesh_input.hpp"
 #include "app/run_files.hpp"
 #include "cli/values.hpp"
 #include "driftmesh/error.hpp"
-#include "io/mesh_file.hpp"
 #include "sizing/size_tree_file.hpp"
 #include "study/run_report.hpp"
 
@@ -62,7 +62,7 @@ void run_report(const ReportCommand& command) {
   register_output(files, command.output, "--output");
   ReportedMesh mesh;
   if (!command.mesh.empty())
-    mesh = {fs::path(command.mesh).filename().string(), read_mesh(command.mesh, command.reading), {}};
+    mesh = {fs::path(command.mesh).filename().string(), read_any_mesh(command.mesh, command.reading), {}};
   if (mesh.mesh.triangles.size() > kMostTriangles)
     throw InputError(
         {command.mesh, 0},
@@ -92,7 +92,7 @@ cli::Command report_command() {
             .take = cli::into(command->inputs)},
            {.name = "mesh",
             .value = "FILE",
-            .help = "A mesh to look at: " + mesh_files_read(),
+            .help = "A mesh to look at: " + mesh_inputs(),
             .completes = cli::Option::Completes::kFile,
             .take = cli::into(command->mesh)},
            {.name = "size-tree",

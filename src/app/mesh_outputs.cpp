@@ -17,6 +17,7 @@ void register_files(const Told& told, std::int32_t pieces) {
   const Request::Output& wanted = told.request.output;
   for (const std::string& mesh : wanted.meshes) register_mesh_output(files, mesh, called("output.meshes"), pieces);
   register_picture(files, wanted.picture, called("output.picture"));
+  register_output(files, wanted.session, called("output.session"));
   register_output(files, wanted.record, called("output.record"));
   register_output(files, told.request.sizing.save_tree, called("sizing.save-tree"));
   register_output(files, told.request.run.checkpoint, called("run.checkpoint"));
@@ -26,7 +27,8 @@ std::vector<std::string> files_written(const Request& request, std::int32_t piec
   std::vector<std::string> files;
   for (const std::string& mesh : request.output.meshes)
     for (const std::string& file : mesh_files(mesh, pieces)) files.push_back(file);
-  if (!request.output.picture.empty()) files.push_back(request.output.picture);
+  for (const std::string& file : {request.output.session, request.output.picture})
+    if (!file.empty()) files.push_back(file);
   if (!request.sizing.save_tree.empty()) files.push_back(request.sizing.save_tree);
   return files;
 }

@@ -61,8 +61,9 @@ int mesh_at(job::Place& place, const Told& told, bool on_ranks, RunNotes& notes)
     if (place.leads()) job::require_step(notes.run);
   });
   StagedFiles files;
-  if (wanted.mesh && (notes.run.complete || request.limits.keep_incomplete)) {
-    made->write(request.output, drawing(request), notes);
+  if (notes.run.complete || request.limits.keep_incomplete) {
+    if (!request.output.session.empty()) made->save(request, notes);
+    if (wanted.mesh) made->write(request.output, drawing(request), notes);
     notes.note_files(place.staged(files));
   }
   place.agree([&] {

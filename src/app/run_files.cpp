@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "app/mesh_input.hpp"
 #include "base/atomic_file.hpp"
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
@@ -40,6 +41,7 @@ cli::Option allow_code_option(bool& allowed) {
 
 void register_mesh_input(FileRegistry& files, const std::string& path, const std::string& use,
                          const ReadOptions& options) {
+  if (is_saved_session(path)) return files.reads(path, use);
   for (const std::string& file : files_to_read(path, options)) files.reads(file, use);
 }
 

@@ -259,7 +259,8 @@ void add_files(const RunRecord& run, Text out) {
     fmt::format_to(out, "{:<12} {}, {}\n", label, file.name, bytes_words(file.bytes));
     label = "";
   }
-  if (run.request.output.meshes.empty() && run.request.output.picture.empty())
+  const job::Request::Output& output = run.request.output;
+  if (output.meshes.empty() && output.picture.empty() && output.session.empty())
     fmt::format_to(out, "written      no mesh; -o FILE writes one: {}\n", mesh_files_written());
   fmt::format_to(out, "digest       {:016x}\nrepeat       {}\n", run.digest, run.command);
 }

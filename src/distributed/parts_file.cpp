@@ -1,7 +1,11 @@
 #include "distributed/parts_file.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <memory>
+#include <string_view>
+#include <system_error>
 
 #include "base/atomic_file.hpp"
 #include "base/formatted.hpp"
@@ -139,6 +143,20 @@ Bytes PartsFile::unsealed(const std::string& array, std::uint64_t first, std::ui
 
 void PartsFile::refuse(const Error& error) const {
   throw InputError({path_, 0}, std::string("cannot be loaded: ") + error.what(), "save it again");
+}
+
+bool is_parts_file(const std::string& path, const PartsFormat& format) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  constexpr std::string_view kBegins = "\x89HDF\r\n\x1a\n";
+  std::string begin(kBegins.size(), '\0');
+  std::ifstream(path, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  if (begin != kBegins) return false;
+  try {
+    return Hdf5Bytes(path).has(format.head);
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 std::vector<std::size_t> shares_of(const std::vector<std::uint64_t>& ends, std::int32_t ranks) {

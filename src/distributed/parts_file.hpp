@@ -70,6 +70,9 @@ class PartsFile {
   std::vector<std::uint64_t> ends_;
 };
 
+/// Whether the file is one of this kind, of whatever version. Looks into regular HDF5 files alone.
+[[nodiscard]] bool is_parts_file(const std::string& path, const PartsFormat& format);
+
 /// The first part that each of so many ranks takes, and their number at last: all take about as much in sum. `ends`:
 /// sums of what parts weigh, ascending.
 [[nodiscard]] std::vector<std::size_t> shares_of(const std::vector<std::uint64_t>& ends, std::int32_t ranks);

@@ -231,7 +231,12 @@ void check_pdr(const Request& request, PlaceKind place) {
           "remove {run.threads}, {run.sleep} and {run.scratch}");
 }
 
-void check_output(const Request::Output& output) {
+void check_output(const Request& request) {
+  const Request::Output& output = request.output;
+  require(output.session.empty() || request.run.method == Method::kRounds, "output.session",
+          "needs a run in rounds, but another method is asked for", "give {run.method} rounds");
+  require(!is_standard_stream(output.session), "output.session", "is standard output, which keeps nothing",
+          "name a file");
   require(std::ranges::all_of(output.open_boundary, [](double marker) { return marker == std::floor(marker); }),
           "output.open-boundary", "has a marker that is no whole number", "markers of segments are whole numbers");
 }
@@ -291,7 +296,7 @@ void check(const Request& request, PlaceKind place, const balancer::PolicyMaker&
   check_method(request);
   check_pdr(request, place);
   check_scratch(request);
-  check_output(request.output);
+  check_output(request);
   if (place == kSimulated) {
     check_cluster(request);
     check_ranks(request, place, ranks_of(cluster_of(request)));

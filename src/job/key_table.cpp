@@ -421,6 +421,10 @@ Section output_section() {
            option("depth", "NAME"), entry_points(kMesh | kDecompose | kCheck | kLibrary),
            option_help("The raster of depths: each point gets its value as its attribute, called so in .vtu, .h5 and "
                        ".msh, the depth in .14, .grd and .gr3, and --courant-step asks it")),
+       key("output.session", &R::output, &R::Output::session,
+           "Save the mesh as an adaptive one that AdaptiveMesh.load, of Python and C++, goes on with on any number of "
+           "ranks. Implies --method rounds",
+           output_file(), option("save", "FILE"), places(kSubdomains), entry_points(kMesh)),
        key("output.picture", &R::output, &R::Output::picture,
            "Picture of the mesh: .png, .svg or .pdf (see also driftmesh plot --help)", output_file(),
            option("plot", "FILE")),

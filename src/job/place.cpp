@@ -13,11 +13,15 @@ void Refined::write(const Request::Output& /*files*/, const Draw& /*draw*/, Watc
   throw Error(kNoMesh);
 }
 
+void Refined::save(const Request& /*request*/, Watch& /*watch*/) {
+  throw Error(kNoMesh);
+}
+
 DistributedPiece Refined::take_piece(Watch& /*watch*/) {
   throw Error(kNoMesh);
 }
 
-LiveMesh Refined::take_live() {
+LiveMesh Refined::take_live(const Request& /*request*/) {
   throw Error(kNoMesh);
 }
 

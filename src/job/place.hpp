@@ -63,8 +63,12 @@ class Refined {
   /// This rank's piece of the mesh, which is all of it where there is one process. Frees the rest. Throws Error at a
   /// place that keeps no mesh.
   [[nodiscard]] virtual DistributedPiece take_piece(Watch& watch);
-  /// The subdomains of this process, for more generations. Frees the rest. Throws Error at a place that keeps none.
-  [[nodiscard]] virtual LiveMesh take_live();
+  /// The subdomains of this process, for more generations, which have the bounds of the request. Frees the rest. Throws
+  /// Error at a place that keeps none.
+  [[nodiscard]] virtual LiveMesh take_live(const Request& request);
+  /// Saves the same as an adaptive mesh that nobody has adapted yet (adapt/saved.hpp), in the file that the request
+  /// names, and frees nothing. Throws FileError, on all ranks; Error at a place that keeps no mesh.
+  virtual void save(const Request& request, Watch& watch);
 
  protected:
   Refined() = default;

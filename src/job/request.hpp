@@ -171,6 +171,7 @@ struct Request {
     double open_from = 0;               ///< shorter boundaries with these markers are land
     std::string crs = "auto";           ///< the coordinates in files
     std::string depth;                  ///< the raster that points get values of; empty: none
+    std::string session;                ///< the file of an adaptive mesh that begins with this one; empty: none
     std::string picture;
     std::string record;
     bool quiet = false;

@@ -46,7 +46,11 @@ class RefinedInRounds final : public Refined {
     return together(team_, ranks_, [&] { return run_->take_piece(watch); });
   }
 
-  [[nodiscard]] LiveMesh take_live() override { return run_->take_live(); }
+  [[nodiscard]] LiveMesh take_live(const Request& request) override { return run_->take_live(request); }
+
+  void save(const Request& request, Watch& watch) override {
+    together(team_, ranks_, [&] { run_->save(request, watch); });
+  }
 
  private:
   Team& team_;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "adapt/generation.hpp"
+#include "adapt/parcel.hpp"
+#include "adapt/saved.hpp"
 #include "base/in_parts.hpp"
 #include "base/key_error.hpp"
 #include "distributed/assembly.hpp"
@@ -211,7 +214,24 @@ DistributedPiece ThreadRun::take_piece(Watch& watch) {
   return piece;
 }
 
-LiveMesh ThreadRun::take_live() {
+/// Without bounds that describe this mesh alone.
+RunPlan ThreadRun::lasting_plan(const Request& request) const {
+  RunPlan plan = order_.plan;
+  plan.bounds.plain.area = request.bounds.area;
+  plan.bounds.size = nullptr;
+  plan.bounds.step = nullptr;
+  plan.scratch = nullptr;
+  return plan;
+}
+
+GrowingArray<double, VertexId> ThreadRun::lengths_at(const SubdomainMesh& part, std::size_t thread) const {
+  GrowingArray<double, VertexId> lengths;
+  if (sizes_[thread] != nullptr)
+    for (const Point& p : part.mesh.points) lengths.push_back(sizes_[thread]->edge_length(p));
+  return lengths;
+}
+
+LiveMesh ThreadRun::take_live(const Request& request) {
   LiveMesh live;
   std::vector<std::pair<const SubdomainMesh*, GrowingArray<double, VertexId>*>> sized;
   for (auto& [id, subdomain] : refinement_->subdomains()) {
@@ -220,20 +240,40 @@ LiveMesh ThreadRun::take_live() {
   }
   const auto add_lengths = [&] {
     in_parts(sized.size(), sizes_.size(), [&](std::size_t thread, std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        for (const Point& p : sized[i].first->mesh.points) sized[i].second->push_back(sizes_[thread]->edge_length(p));
+      for (std::size_t i = begin; i < end; ++i) *sized[i].second = lengths_at(*sized[i].first, thread);
     });
   };
   if (ranks_ != nullptr)
     ranks_->agree(add_lengths);
   else
     add_lengths();
+  live.plan = lasting_plan(request);
   release();
-  live.plan = std::move(order_.plan);
   live.pslg = std::move(order_.pslg);
   live.rasters = std::move(order_.rasters);
   live.limits = limits_;
   return live;
+}
+
+void ThreadRun::save(const Request& request, Watch& watch) {
+  const std::string& path = request.output.session;
+  watch.writing(path);
+  adapt::SavedHead head;
+  head.plan = lasting_plan(request);
+  head.pslg = order_.pslg;
+  ByteWriter rasters;
+  order_.rasters.write(rasters);
+  head.more = rasters.take();
+  std::vector<SubdomainId> here;
+  for (const auto& [id, subdomain] : refinement_->subdomains()) here.push_back(id);
+  const auto packed = [&](SubdomainId s) {
+    Bytes bytes;
+    show_subdomain(refinement_->subdomains().at(s), [&](SubdomainId, const SubdomainMesh& part) {
+      bytes = adapt::pack(s, adapt::first_part(part, head.plan.bounds, lengths_at(part, 0)), {});
+    });
+    return bytes;
+  };
+  timed(watch, "save", [&] { adapt::save(path, head, here, packed, ranks()); });
 }
 
 }  // namespace driftmesh::job

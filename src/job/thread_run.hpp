@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/growing_array.hpp"
+#include "decompose/subdomain_mesh.hpp"
 #include "distributed/ranks.hpp"
 #include "driftmesh/distributed_piece.hpp"
 #include "driftmesh/files.hpp"
@@ -17,6 +19,7 @@
 #include "job/pulse.hpp"
 #include "job/rank_report.hpp"
 #include "job/record.hpp"
+#include "job/request.hpp"
 #include "job/watch.hpp"
 #include "runtime/threads/refinement_in_rounds.hpp"
 
@@ -27,8 +30,8 @@ namespace driftmesh::job {
 class ThreadRun final : public Refined {
  public:
   /// `order`: its plan maps the subdomains to `threads` ranks; or to `ranks`, if not null, which refine them together
-  /// and of which each has `threads` threads. With them, refine(), take_piece() and take_live() are collective, and
-  /// write() and report() are for those that know of them. `watch` and `ranks` outlive the object.
+  /// and of which each has `threads` threads. With them, refine(), save(), take_piece() and take_live() are collective,
+  /// and write() and report() are for those that know of them. `watch` and `ranks` outlive the object.
   ThreadRun(Order order, const Limits& limits, std::int32_t threads, Watch& watch, Ranks* ranks = nullptr);
   ~ThreadRun() override;
 
@@ -49,9 +52,14 @@ class ThreadRun final : public Refined {
   [[nodiscard]] const RunPlan* plan() const override { return &order_.plan; }
   void write(const Request::Output& files, const Draw& draw, Watch& watch) override;
   [[nodiscard]] DistributedPiece take_piece(Watch& watch) override;
-  [[nodiscard]] LiveMesh take_live() override;
+  [[nodiscard]] LiveMesh take_live(const Request& request) override;
+  void save(const Request& request, Watch& watch) override;
 
  private:
+  /// The plan for more generations.
+  [[nodiscard]] RunPlan lasting_plan(const Request& request) const;
+  /// The length that the size field asks for at each vertex; empty without one. `thread`: that asks.
+  [[nodiscard]] GrowingArray<double, VertexId> lengths_at(const SubdomainMesh& part, std::size_t thread) const;
   /// Frees the subdomains and what they need.
   void release();
   /// Has checkpoints made at fences.

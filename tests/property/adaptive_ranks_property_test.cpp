@@ -69,7 +69,7 @@ job::LiveMesh first_generation(const Pslg& input, const MeshOptions& options) {
   Call call(input, options);
   job::Here here(job::kSubdomains, 1);
   job::RunRecord record;
-  return job::make(call.asked(here.kind()), here, record, call.watch())->take_live();
+  return job::make(call.asked(here.kind()), here, record, call.watch())->take_live(call.request());
 }
 
 /// The part of it that a rank holds.
