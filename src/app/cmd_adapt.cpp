@@ -40,22 +40,37 @@
 namespace driftmesh::app {
 namespace {
 
-std::string list_of_names(const std::vector<patch::NamedField>& fields) {
+using NamedFields = std::vector<patch::NamedField>;
+
+/// "'u', 'v'", or "no data" where there are none.
+std::string list_of_names(const NamedFields& fields, FieldPlace place) {
   std::string list;
-  for (const patch::NamedField& named : fields) list += (list.empty() ? "'" : ", '") + named.name + "'";
-  return list.empty() ? "it has no point data" : "it has " + list;
+  for (const patch::NamedField& named : fields)
+    if (named.field.place == place) list += (list.empty() ? "'" : ", '") + named.name + "'";
+  return (list.empty() ? "no data" : list) + " at " + adapt::words_of(place);
 }
 
-adapt::Field& find_field(std::vector<patch::NamedField>& fields, const std::string& name, const AdaptCommand& command,
-                         const char* option) {
-  for (patch::NamedField& named : fields)
-    if (named.name == name) return named.field;
-  throw InputError({command.mesh}, "has no point data '" + name + "', which " + option + " names",
-                   list_of_names(fields));
+[[noreturn]] void refuse_name(const NamedFields& fields, const std::string& what, const std::string& name,
+                              const std::string& option, const AdaptCommand& command) {
+  throw InputError(
+      {command.mesh}, "has no " + what + " '" + name + "', which " + option + " names",
+      "it has " + list_of_names(fields, FieldPlace::kPoints) + " and " + list_of_names(fields, FieldPlace::kTriangles));
 }
 
-std::vector<double> lengths_of(std::vector<patch::NamedField>& fields, const AdaptCommand& command) {
-  const std::vector<double>& lengths = find_field(fields, command.lengths, command, "--lengths").values;
+/// All data of the mesh, those at points first.
+NamedFields take_data(Mesh& mesh, TriangleData data) {
+  NamedFields fields = patch::take_point_data(mesh);
+  for (auto& [name, values] : data)
+    fields.push_back({name, {.place = FieldPlace::kTriangles, .values = std::move(values)}});
+  return fields;
+}
+
+std::vector<double> lengths_of(const NamedFields& fields, const AdaptCommand& command) {
+  const auto found = std::ranges::find_if(fields, [&](const patch::NamedField& named) {
+    return named.name == command.lengths && named.field.place == FieldPlace::kPoints;
+  });
+  if (found == fields.end()) refuse_name(fields, "point data", command.lengths, "--lengths", command);
+  const std::vector<double>& lengths = found->field.values;
   for (std::size_t v = 0; v < lengths.size(); ++v)
     if (!(lengths[v] > 0))
       throw InputError(
@@ -65,15 +80,32 @@ std::vector<double> lengths_of(std::vector<patch::NamedField>& fields, const Ada
   return lengths;
 }
 
-void apply_transfers(std::vector<patch::NamedField>& fields, const AdaptCommand& command) {
+/// Data at points and at triangles may have one name; both are meant then.
+void apply_transfers(NamedFields& fields, const AdaptCommand& command) {
   for (const std::string& transfer : command.transfers) {
     const std::size_t equals = transfer.rfind('=');
     const std::string how = equals == std::string::npos ? "" : transfer.substr(equals + 1);
     if (!how.empty() && how != "conserve" && how != "interpolate")
       throw cli::UsageError("--transfer is '" + transfer + "'; it is NAME, NAME=interpolate or NAME=conserve");
-    adapt::Field& field = find_field(fields, transfer.substr(0, equals), command, "--transfer");
-    if (how == "conserve") field.how = Transfer::kConserve;
+    const std::string name = transfer.substr(0, equals);
+    bool any = false;
+    for (patch::NamedField& named : fields) {
+      if (named.name != name) continue;
+      any = true;
+      if (how == "conserve") named.field.how = Transfer::kConserve;
+    }
+    if (!any) refuse_name(fields, "data", name, "--transfer", command);
   }
+}
+
+/// Puts data at points into the mesh, and returns those at triangles. `names`: of the fields, in their order.
+TriangleData give_data(patch::Remade& remade, const NamedFields& names) {
+  TriangleData data;
+  const auto points = static_cast<std::size_t>(remade.mesh.attributes_per_point);
+  for (std::size_t i = points; i < names.size(); ++i) data.emplace(names[i].name, std::move(remade.fields[i].values));
+  remade.fields.resize(points);
+  patch::give_point_data(remade.mesh, remade.fields);
+  return data;
 }
 
 std::optional<Box> box_from(const std::string& text) {
@@ -160,9 +192,10 @@ void run_adapt(const AdaptCommand& command) {
   if (!command.outline.empty())
     for (const std::string& file : input_files(command.outline)) files.reads(file, "--outline");
   StageNotes notes(!command.quiet);
-  Mesh mesh = job::timed(notes, "read", [&] { return read_any_mesh(command.mesh, command.reading); });
+  TriangleData data;
+  Mesh mesh = job::timed(notes, "read", [&] { return read_any_mesh(command.mesh, command.reading, data); });
   const std::size_t before = mesh.triangles.size();
-  std::vector<patch::NamedField> named = patch::take_point_data(mesh);
+  NamedFields named = take_data(mesh, std::move(data));
   patch::Order order{.options = command.options, .min_angle = command.angle};
   if (!command.lengths.empty()) order.lengths = lengths_of(named, command);
   apply_transfers(named, command);
@@ -180,7 +213,7 @@ void run_adapt(const AdaptCommand& command) {
   }
   const Box box = Box::of(mesh.points);
   std::vector<adapt::Field> fields;
-  for (patch::NamedField& field : named) fields.push_back(std::move(field.field));
+  for (patch::NamedField& field : named) fields.push_back(std::move(field.field));  // names stay, in their order
   patch::Remade remade = job::timed(notes, "remake", [&] {
     try {
       return patch::remake(std::move(mesh), std::move(fields), order);
@@ -192,11 +225,11 @@ void run_adapt(const AdaptCommand& command) {
       throw InputError(command.mesh + ": " + error.what());
     }
   });
-  patch::give_point_data(remade.mesh, remade.fields);
+  const TriangleData new_data = give_data(remade, named);
   StagedFiles staged;
   job::timed(notes, "write", [&] {
     if (!command.map.empty()) write_number_map(command.map, remade.old_points, remade.old_triangles);
-    write_mesh(remade.mesh, command.output,
+    write_mesh(remade.mesh, new_data, command.output,
                {.warn = [](const std::string& w) { std::cerr << "warning: " << w << '\n'; }});
   });
   staged.commit();
@@ -230,7 +263,8 @@ std::vector<cli::Option> adapt_options(AdaptCommand& command) {
        .take = cli::into(command.lengths)},
       {.name = "transfer",
        .value = "NAME[=conserve]",
-       .help = "How point data get to the new mesh: interpolated, as all are, or such that their integrals stay",
+       .help = "How data get to the new mesh: interpolated, as all at points are, taken from the old triangle at the "
+               "center of a new one, as all at triangles are, or such that their integrals stay",
        .repeats = true,
        .take = cli::into(command.transfers)},
       {.name = "only",
@@ -302,7 +336,7 @@ cli::Command adapt_command() {
           .options = adapt_options(*command),
           .notes =
               "The outline, markers, regions and names are those of the mesh, unless --outline gives another one. "
-              "What point data it has comes along.",
+              "What data it has at points, and in .vtu at triangles, comes along.",
           .examples = {"driftmesh adapt flow.vtu --lengths h -o next.vtu",
                        "driftmesh adapt port.vtu --outline new-pier.geojson --map numbers.csv -o next.vtu"},
           .exit_codes = "0 done, 1 error, 2 wrong usage, 3 stopped by a limit",

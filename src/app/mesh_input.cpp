@@ -35,24 +35,30 @@ MeshInput read_session(const std::string& path, bool with_depths) {
   return input;
 }
 
-/// The components of a field at points.
-void add_columns(const std::string& name, const adapt::Field& field, std::vector<patch::NamedField>& columns) {
+/// Calls visit(name, values) for each component of a field.
+template <class Visit>
+void visit_components(const std::string& name, const adapt::Field& field, const Visit& visit) {
   for (std::size_t k = 0; k < field.components; ++k) {
-    patch::NamedField& column = columns.emplace_back();
-    column.name = field.components == 1 ? name : name + "_" + std::to_string(k);
-    for (std::size_t i = k; i < field.values.size(); i += field.components)
-      column.field.values.push_back(field.values[i]);
+    std::vector<double> values;
+    for (std::size_t i = k; i < field.values.size(); i += field.components) values.push_back(field.values[i]);
+    visit(field.components == 1 ? name : name + "_" + std::to_string(k), std::move(values));
   }
 }
 
-/// Behind what the mesh has at its points.
-void give_fields(Mesh& mesh, const adapt::Fields& fields, const std::string& path) {
+/// Behind what the mesh has at its points. `data`: null: those at triangles are left out.
+void give_fields(Mesh& mesh, const adapt::Fields& fields, const std::string& path, TriangleData* data) {
   std::vector<patch::NamedField> columns;
-  for (const auto& [name, field] : fields) {
-    if (field.place == FieldPlace::kPoints)
-      add_columns(name, field, columns);
-    else
-      std::cerr << "warning: " << path << ": field '" << name << "' is left out, since it is not at points\n";
+  for (const auto& named : fields) {
+    const adapt::Field& field = named.second;
+    visit_components(named.first, field, [&](const std::string& name, std::vector<double> values) {
+      if (field.place == FieldPlace::kPoints)
+        columns.push_back({name, {.values = std::move(values)}});
+      else if (field.place == FieldPlace::kTriangles && data != nullptr)
+        data->try_emplace(name, std::move(values));
+      else
+        std::cerr << "warning: " << path << ": '" << name << "' at " << adapt::words_of(field.place)
+                  << " is left out\n";
+    });
   }
   if (columns.empty()) return;
   std::vector<patch::NamedField> own = patch::take_point_data(mesh);
@@ -66,6 +72,12 @@ void give_fields(Mesh& mesh, const adapt::Fields& fields, const std::string& pat
   }
   mesh.attributes_per_point = static_cast<std::int32_t>(columns.size());
   patch::give_point_data(mesh, values);
+}
+
+Mesh read_with_fields(const std::string& path, TriangleData* data) {
+  MeshInput input = read_session(path, true);
+  give_fields(input.mesh, input.session->fields, path, data);
+  return std::move(input.mesh);
 }
 
 }  // namespace
@@ -83,10 +95,11 @@ MeshInput read_to_check(const std::string& path, const ReadOptions& options) {
 }
 
 Mesh read_any_mesh(const std::string& path, const ReadOptions& options) {
-  if (!is_saved_session(path)) return read_mesh(path, options);
-  MeshInput input = read_session(path, true);
-  give_fields(input.mesh, input.session->fields, path);
-  return std::move(input.mesh);
+  return is_saved_session(path) ? read_with_fields(path, nullptr) : read_mesh(path, options);
+}
+
+Mesh read_any_mesh(const std::string& path, const ReadOptions& options, TriangleData& data) {
+  return is_saved_session(path) ? read_with_fields(path, &data) : read_mesh(path, options, data);
 }
 
 }  // namespace driftmesh::app

@@ -6,6 +6,7 @@
 #include "adapt/saved.hpp"
 #include "driftmesh/files.hpp"
 #include "driftmesh/mesh.hpp"
+#include "io/triangle_data.hpp"
 
 namespace driftmesh::app {
 
@@ -19,6 +20,8 @@ namespace driftmesh::app {
 /// session, are attributes of the mesh, called as they are; those with several components are one each, called u_0,
 /// u_1. What has no place there is a warning. Errors: as read_mesh; InputError, FileError for the rasters.
 [[nodiscard]] Mesh read_any_mesh(const std::string& path, const ReadOptions& options);
+/// The same with data at triangles, of a session fields there.
+[[nodiscard]] Mesh read_any_mesh(const std::string& path, const ReadOptions& options, TriangleData& data);
 
 /// A mesh as a file has it.
 struct MeshInput {

@@ -102,8 +102,26 @@ void check_attribute_names(const Mesh& mesh, const std::string& path) {
     throw InputError({path, 0}, "has other numbers of attributes and of names for them", "name all of them, or none");
 }
 
+void check_triangle_names(const TriangleData& data, const std::string& path) {
+  for (const auto& [name, values] : data)
+    if (const std::string fault =
+            is_array_on_cells(name) ? "is that of something else at triangles" : fault_of_name(name);
+        !fault.empty())
+      throw InputError({path, 0}, "the name '" + name + "' of data at triangles " + fault, "choose another");
+}
+
+/// In the coordinates of the file.
+void write_as_is(const Mesh& mesh, const TriangleData& data, const std::string& path, const WriteOptions& options) {
+  const MeshFormat& format = format_of(path);
+  if (format.write_with_data != nullptr && !data.empty())
+    format.write_with_data(mesh, data, path);
+  else
+    format.write(mesh, path, options);
+}
+
 /// `coordinates`: those of the file, empty for those of the mesh.
-void write_changed(Mesh mesh, const std::string& coordinates, const std::string& path, const WriteOptions& options) {
+void write_changed(Mesh mesh, const TriangleData& data, const std::string& coordinates, const std::string& path,
+                   const WriteOptions& options) {
   if (format_of(path).is_grid && options.open_from > 0) close_short_openings(mesh, options);
   Mesh holes;
   holes.points = options.holes;
@@ -112,24 +130,30 @@ void write_changed(Mesh mesh, const std::string& coordinates, const std::string&
   change_coordinates(holes, coordinates, path);
   WriteOptions moved = options;
   moved.holes = std::move(holes.points);
-  format_of(path).write(mesh, path, moved);
+  write_as_is(mesh, data, path, moved);
 }
 
 }  // namespace
 
-void write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options) {
+void write_mesh(const Mesh& mesh, const TriangleData& data, const std::string& path, const WriteOptions& options) {
   check_names(mesh.names, path);
   check_attribute_names(mesh, path);
+  check_triangle_names(data, path);
   require_whole(path);
   const MeshFormat& format = format_of(path);
   const std::string wanted = coordinates_wanted(mesh, path, options);
   if (!wanted.empty() || (format.is_grid && options.open_from > 0))
-    write_changed(mesh, wanted, path, options);
+    write_changed(mesh, data, wanted, path, options);
   else
-    format.write(mesh, path, options);
+    write_as_is(mesh, data, path, options);
   if (!options.warn) return;
   if (const std::string lost = lost_parts(mesh, format.keeps); !lost.empty())
     options.warn(path + ": has no place for " + lost);
+  if (format.write_with_data == nullptr && !data.empty()) options.warn(path + ": has no place for data at triangles");
+}
+
+void write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options) {
+  write_mesh(mesh, {}, path, options);
 }
 
 namespace {
@@ -139,19 +163,31 @@ namespace {
                    "keep the mesh in one of " + mesh_files_read());
 }
 
+/// `data`: those at triangles are put there, unless null.
+Mesh read(const std::string& path, const ReadOptions& options, TriangleData* data) {
+  const MeshFormat& format = format_of(path);
+  Mesh mesh;
+  if (format.read != nullptr) {
+    mesh = format.read(path, options);
+  } else if (format.parse != nullptr) {
+    const FileBytes bytes(path, format.begins);
+    mesh = format.parse(path, bytes.view());
+    if (data != nullptr && format.parse_data != nullptr) *data = format.parse_data(path, bytes.view());
+  } else {
+    refuse_to_read(path);
+  }
+  return_to_plane(mesh, path);
+  return mesh;
+}
+
 }  // namespace
 
 Mesh read_mesh(const std::string& path, const ReadOptions& options) {
-  const MeshFormat& format = format_of(path);
-  Mesh mesh;
-  if (format.read != nullptr)
-    mesh = format.read(path, options);
-  else if (format.parse != nullptr)
-    mesh = format.parse(path, FileBytes(path, format.begins).view());
-  else
-    refuse_to_read(path);
-  return_to_plane(mesh, path);
-  return mesh;
+  return read(path, options, nullptr);
+}
+
+Mesh read_mesh(const std::string& path, const ReadOptions& options, TriangleData& data) {
+  return read(path, options, &data);
 }
 
 bool is_mesh_file(const std::string& path) {

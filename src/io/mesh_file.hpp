@@ -8,6 +8,7 @@
 #include "driftmesh/files.hpp"
 #include "driftmesh/mesh.hpp"
 #include "io/mesh_formats.hpp"
+#include "io/triangle_data.hpp"
 #include "io/vtu_format.hpp"
 
 namespace driftmesh {
@@ -49,6 +50,11 @@ class PieceFiles {
 };
 /// All pieces.
 [[nodiscard]] std::vector<Mesh> read_pieces(const std::string& path, const ReadOptions& options = {});
+
+// The same as read_mesh and write_mesh, with data at triangles. A format that has no place for them gives none, and is
+// written without, which WriteOptions::warn is told. write_mesh also throws InputError for names that no file can hold.
+[[nodiscard]] Mesh read_mesh(const std::string& path, const ReadOptions& options, TriangleData& data);
+void write_mesh(const Mesh& mesh, const TriangleData& data, const std::string& path, const WriteOptions& options);
 
 /// The files that writing a mesh in so many pieces would replace; one in a single piece has 0. Errors: as format_of.
 [[nodiscard]] std::vector<std::string> mesh_files(const std::string& path, std::int32_t pieces = 0);

@@ -10,6 +10,7 @@
 
 #include "driftmesh/mesh.hpp"
 #include "io/file_sink.hpp"
+#include "io/triangle_data.hpp"
 
 namespace driftmesh {
 
@@ -86,6 +87,8 @@ template <class T>
 /// triangles), "region", "subdomain" and "rank" (on a line, those of an adjacent triangle); each only if the mesh has
 /// it.
 void write_vtu(const Mesh& mesh, const std::string& path);
+/// The same with data at triangles; a line has those of an adjacent triangle.
+void write_vtu_with_data(const Mesh& mesh, const TriangleData& data, const std::string& path);
 /// What VTK calls a point or a cell that another piece of the mesh counts, and so leaves out of sums and counts.
 inline constexpr std::uint8_t kDuplicate = 1;
 
@@ -99,7 +102,7 @@ struct VtuGhosts {
 
 /// The same with the given arrays. The file is complete, but appears under its name only on commit().
 [[nodiscard]] std::unique_ptr<FileSink> prepare_vtu(const Mesh& mesh, const VtuArrays& arrays, const std::string& path,
-                                                    const VtuGhosts& ghosts = {});
+                                                    const VtuGhosts& ghosts = {}, const TriangleData& data = {});
 
 /// An array that a .pvtu declares for each of its pieces.
 struct DeclaredArray {
@@ -109,12 +112,14 @@ struct DeclaredArray {
 };
 
 /// Reads what write_vtu writes, and what other programs write of triangles and lines: appended or inline, as bytes, in
-/// base64 or as text, compressed by zlib or not. Points may come as any numbers; arrays of other names are ignored.
-/// Cells that are ghosts (vtkGhostType) are left out, with points that only they use; a line that is a side of a
-/// triangle stays. A piece must have the arrays that are `declared` for it.
+/// base64 or as text, compressed by zlib or not. Points may come as any numbers; arrays on cells of other names are
+/// ignored. Cells that are ghosts (vtkGhostType) are left out, with points that only they use; a line that is a side of
+/// a triangle stays. A piece must have the arrays that are `declared` for it.
 [[nodiscard]] Mesh read_vtu(const std::string& path, std::span<const DeclaredArray> declared = {});
 /// The same from memory; `file` is for messages.
 [[nodiscard]] Mesh parse_vtu(const std::string& file, std::string_view bytes,
                              std::span<const DeclaredArray> declared = {});
+/// The arrays on cells of other names; those with several components are one each, called u_0, u_1.
+[[nodiscard]] TriangleData parse_vtu_triangle_data(const std::string& file, std::string_view bytes);
 
 }  // namespace driftmesh

@@ -59,9 +59,10 @@ void declare_point_data(VtuFile& file, const VtuArrays& arrays, const Counts& co
   file.header("      </PointData>\n");
 }
 
-void declare_cell_data(VtuFile& file, const VtuArrays& arrays, const Counts& counts) {
+void declare_cell_data(VtuFile& file, const VtuArrays& arrays, const TriangleData& data, const Counts& counts) {
   file.header("      <CellData>\n");
   for_each_cell_array(arrays, [&]<class T>(const T*, const char* name) { file.declare<T>(name, counts.cells); });
+  for (const auto& [name, values] : data) file.declare<double>(escaped(name), counts.cells);
   file.header("      </CellData>\n");
 }
 
@@ -108,7 +109,8 @@ void declare_field_data(VtuFile& file, const Mesh& mesh) {
 }
 
 template <class Offset>
-void write_header(VtuFile& file, const VtuArrays& arrays, const Counts& counts, const Mesh& mesh) {
+void write_header(VtuFile& file, const VtuArrays& arrays, const TriangleData& data, const Counts& counts,
+                  const Mesh& mesh) {
   file.header(
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
@@ -117,7 +119,7 @@ void write_header(VtuFile& file, const VtuArrays& arrays, const Counts& counts, 
   file.header("    <Piece NumberOfPoints=\"" + std::to_string(counts.points) + "\" NumberOfCells=\"" +
               std::to_string(counts.cells) + "\">\n");
   declare_point_data(file, arrays, counts);
-  declare_cell_data(file, arrays, counts);
+  declare_cell_data(file, arrays, data, counts);
   declare_grid<Offset>(file, counts);
   file.header("    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n   _");
 }
@@ -164,14 +166,14 @@ class LineValues {
 };
 
 void write_cell_data(VtuFile& file, const Mesh& mesh, const VtuArrays& arrays, const VtuGhosts& ghosts,
-                     const Counts& counts) {
+                     const TriangleData& data, const Counts& counts) {
   FileSink& sink = file.sink();
   if (arrays.cell_markers) {
     file.begin_array<std::int32_t>(counts.cells);
     sink.raw_values(counts.triangles, [](std::size_t) { return std::int32_t{0}; });
     sink.raw_values(counts.lines, [&](std::size_t e) { return mesh.edges[e].marker; });
   }
-  if (!arrays.regions && !arrays.subdomains && !arrays.ranks) return;
+  if (!arrays.regions && !arrays.subdomains && !arrays.ranks && data.empty()) return;
   const LineValues lines(mesh);
   const auto write = [&]<class T>(const std::vector<T>& of_triangles) {
     file.begin_array<T>(counts.cells);
@@ -181,11 +183,13 @@ void write_cell_data(VtuFile& file, const Mesh& mesh, const VtuArrays& arrays, c
   if (arrays.regions) write(mesh.regions);
   if (arrays.subdomains) write(mesh.subdomains);
   if (arrays.ranks) write(mesh.ranks);
-  if (!arrays.ghost_cells) return;
-  file.begin_array<std::uint8_t>(counts.cells);
-  sink.raw_values(counts.triangles,
-                  [&](std::size_t t) { return mesh.ranks[t] == ghosts.rank ? std::uint8_t{0} : kDuplicate; });
-  lines.append_ghosts(sink, mesh.ranks, ghosts.rank);
+  if (arrays.ghost_cells) {
+    file.begin_array<std::uint8_t>(counts.cells);
+    sink.raw_values(counts.triangles,
+                    [&](std::size_t t) { return mesh.ranks[t] == ghosts.rank ? std::uint8_t{0} : kDuplicate; });
+    lines.append_ghosts(sink, mesh.ranks, ghosts.rank);
+  }
+  for (const auto& named : data) write(named.second);
 }
 
 template <class Offset>
@@ -208,10 +212,10 @@ void write_grid(VtuFile& file, const Mesh& mesh, const Counts& counts) {
 
 template <class Offset>
 void write_all(VtuFile& file, const Mesh& mesh, const VtuArrays& arrays, const VtuGhosts& ghosts,
-               const Counts& counts) {
-  write_header<Offset>(file, arrays, counts, mesh);
+               const TriangleData& data, const Counts& counts) {
+  write_header<Offset>(file, arrays, data, counts, mesh);
   write_point_data(file, mesh, arrays, ghosts);
-  write_cell_data(file, mesh, arrays, ghosts, counts);
+  write_cell_data(file, mesh, arrays, ghosts, data, counts);
   write_grid<Offset>(file, mesh, counts);
   file.header("\n  </AppendedData>\n</VTKFile>\n");
 }
@@ -232,19 +236,23 @@ VtuArrays arrays_of(const Mesh& mesh) {
 }
 
 std::unique_ptr<FileSink> prepare_vtu(const Mesh& mesh, const VtuArrays& arrays, const std::string& path,
-                                      const VtuGhosts& ghosts) {
+                                      const VtuGhosts& ghosts, const TriangleData& data) {
   auto sink = std::make_unique<FileSink>(path);
   VtuFile file(*sink);
   const Counts counts(mesh);
   if (std::in_range<std::int32_t>(counts.connectivity))
-    write_all<std::int32_t>(file, mesh, arrays, ghosts, counts);
+    write_all<std::int32_t>(file, mesh, arrays, ghosts, data, counts);
   else
-    write_all<std::int64_t>(file, mesh, arrays, ghosts, counts);
+    write_all<std::int64_t>(file, mesh, arrays, ghosts, data, counts);
   return sink;
 }
 
 void write_vtu(const Mesh& mesh, const std::string& path) {
   prepare_vtu(mesh, arrays_of(mesh), path)->commit();
+}
+
+void write_vtu_with_data(const Mesh& mesh, const TriangleData& data, const std::string& path) {
+  prepare_vtu(mesh, arrays_of(mesh), path, {}, data)->commit();
 }
 
 }  // namespace driftmesh

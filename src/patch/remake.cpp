@@ -2,20 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numeric>
 #include <string>
 #include <utility>
 
-#include "adapt/conserve.hpp"
-#include "adapt/interpolate.hpp"
-#include "adapt/lineage.hpp"
 #include "adapt/locator.hpp"
-#include "distributed/ranks.hpp"
 #include "driftmesh/error.hpp"
 #include "geometry/predicates.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "patch/attempt.hpp"
+#include "patch/carry.hpp"
 #include "patch/domain.hpp"
 #include "patch/lengths.hpp"
 #include "patch/neighborhood.hpp"
@@ -88,77 +84,6 @@ Extent extent_of(const Mesh& mesh, const Part& part, const Neighborhood& taken, 
     std::ranges::for_each(weir.across, hold);
   }
   return extent;
-}
-
-/// What a transfer of fields sees of a part.
-adapt::Generation generation_of(const Mesh& mesh, Triangulation triangulation) {
-  adapt::Generation generation;
-  auto whole = std::make_shared<SubdomainMesh>();
-  whole->mesh = std::move(triangulation);
-  generation.parts.push_back({std::move(whole)});
-  IdVector<VertexId, std::int32_t> places(mesh.points.size());
-  std::iota(places.begin(), places.end(), 0);
-  generation.here.push_back(SubdomainId{0});
-  generation.holders.push_back(Rank{0});
-  generation.places.push_back(std::move(places));
-  generation.first_triangle.push_back(0);
-  generation.piece.mesh.points = mesh.points;
-  generation.piece.mesh.triangles = mesh.triangles;
-  return generation;
-}
-
-/// Values of some places, in their order.
-std::vector<double> taken_from(const std::vector<double>& values, std::size_t each,
-                               const std::vector<std::int32_t>& places) {
-  std::vector<double> taken;
-  taken.reserve(places.size() * each);
-  for (const std::int32_t place : places)
-    for (std::size_t k = 0; k < each; ++k) taken.push_back(values[to_index(place) * each + k]);
-  return taken;
-}
-
-/// Values where nothing changed, and in the others' places those of the part: the first ones of `made`.
-std::vector<double> put_together(const std::vector<double>& old, std::size_t each,
-                                 const std::vector<std::int32_t>& from, const std::vector<double>& made,
-                                 const std::vector<std::int32_t>& places) {
-  std::vector<double> values(from.size() * each);
-  for (std::size_t i = 0; i < from.size(); ++i)
-    for (std::size_t k = 0; from[i] >= 0 && k < each; ++k) values[i * each + k] = old[to_index(from[i]) * each + k];
-  for (std::size_t i = 0; i < places.size(); ++i)
-    for (std::size_t k = 0; k < each; ++k) values[to_index(places[i]) * each + k] = made[i * each + k];
-  return values;
-}
-
-std::size_t values_at(const adapt::Field& field) {
-  return field.components * (field.place == FieldPlace::kCorners ? 3 : 1);
-}
-
-void carry(std::vector<adapt::Field>& fields, const Part& part, const NewPart& made, Triangulation before,
-           const Numbers& numbers) {
-  if (fields.empty()) return;
-  const adapt::Generation old_part = generation_of(part.mesh, std::move(before));
-  const adapt::Generation next_part =
-      generation_of(made.mesh, triangulation_of(made.mesh, triangle_neighbors(made.mesh)));
-  OneRank alone;
-  const adapt::Lineage lineage(old_part, next_part, 1, alone);
-  std::vector<std::vector<double>> old;
-  for (const adapt::Field& field : fields)
-    old.push_back(
-        taken_from(field.values, values_at(field), field.place == FieldPlace::kPoints ? part.point : part.triangle));
-  std::vector<adapt::ConservedField> conserving;
-  for (std::size_t i = 0; i < fields.size(); ++i)
-    if (fields[i].how == Transfer::kConserve) conserving.push_back({fields[i].place, fields[i].components, old[i]});
-  std::vector<std::vector<double>> conserved = adapt::conserved(lineage, conserving);
-  std::size_t taken = 0;
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    adapt::Field& field = fields[i];
-    const bool at_points = field.place == FieldPlace::kPoints;
-    const std::vector<double> values = field.how == Transfer::kConserve
-                                           ? std::move(conserved[taken++])
-                                           : adapt::interpolated_at_points(lineage, old[i], field.components);
-    field.values = put_together(field.values, values_at(field), at_points ? numbers.old_points : numbers.old_triangles,
-                                values, at_points ? numbers.points : numbers.triangles);
-  }
 }
 
 /// A distance from what was inside within which all points of triangles are that are gone: looks along edges for points

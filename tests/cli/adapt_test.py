@@ -7,6 +7,8 @@ usage: adapt_test.py DRIFTMESH [unittest options]
 import math
 import os
 import random
+import re
+import struct
 
 from program import SQUARE, Cli, main
 
@@ -33,7 +35,7 @@ REGIONS = """6 0
 REGIONS = REGIONS.replace("6 0\n", "6 2 0 0\n", 1)
 
 
-def as_vtu(points, triangles, data):
+def as_vtu(points, triangles, data, at_triangles={}):
     """A mesh as other programs write it: text, with names of their own, and no segments."""
     def array(name, kind, values, components=1):
         return (f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="ascii">'
@@ -41,7 +43,9 @@ def as_vtu(points, triangles, data):
     return (f'<?xml version="1.0"?><VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian">'
             f'<UnstructuredGrid><Piece NumberOfPoints="{len(points)}" NumberOfCells="{len(triangles)}"><PointData>'
             + "".join(array(name, "Float64", map(repr, values)) for name, values in data.items())
-            + '</PointData><CellData></CellData><Points>'
+            + '</PointData><CellData>'
+            + "".join(array(name, "Float64", map(repr, values)) for name, values in at_triangles.items())
+            + '</CellData><Points>'
             + array("Points", "Float64", (repr(x) for p in points for x in (*p, 0.0)), 3) + "</Points><Cells>"
             + array("connectivity", "Int64", (v for t in triangles for v in t))
             + array("offsets", "Int64", range(3, 3 * len(triangles) + 1, 3))
@@ -260,6 +264,83 @@ class Part(Adapt):
                    and not any(x - far <= old[0][v][0] <= x + width + far and y - far <= old[0][v][1] <= y + height + far
                                for v in t)]
         self.assertEqual(missing, [])
+
+
+class AtTriangles(Adapt):
+    """Data at triangles, of files of other programs and of our own."""
+
+    def old(self, size=0.4):
+        """A mesh with different values everywhere."""
+        points, triangles = self.mesh("plain.vtu", size=size)
+        rng = random.Random(len(triangles))
+        values = [rng.uniform(1, 2) for _ in triangles]
+        self.write("old.vtu", as_vtu(points, triangles, {"h": [0.2 + 0.1 * x for x, _ in points]},
+                                     {"q": values, "dry&wet": [float(v > 1.5) for v in values]}))
+        return points, triangles, values
+
+    def values(self, name, array):
+        """Those of triangles, which come first, from a file that driftmesh wrote."""
+        raw = (self.folder / name).read_bytes()
+        begin = b'<AppendedData encoding="raw">\n   _'
+        offset = int(re.search(f'Name="{re.escape(array)}" format="appended" offset="([0-9]+)"'.encode(), raw)[1])
+        place = raw.index(begin) + len(begin) + offset
+        count = int.from_bytes(raw[place:place + 8], "little") // 8
+        return struct.unpack(f"<{count}d", raw[place + 8:place + 8 + 8 * count])
+
+    def assert_from_centers(self, old, new, values):
+        points, triangles, of_old = old
+        new_points, new_triangles, _ = new
+        for t, value in zip(new_triangles, values):
+            x, y = (sum(new_points[v][k] for v in t) / 3 for k in range(2))
+            around = [of_old[i] for i, (a, b, c) in enumerate(triangles)
+                      if all(area([points[u], points[v], (x, y)], (0, 1, 2)) > -1e-12 for u, v in ((a, b), (b, c), (c, a)))]
+            self.assertIn(value, around)
+
+    def test_each_comes_from_where_the_center_lies(self):
+        old = self.old()
+        self.succeed("adapt", "old.vtu", "--lengths", "h", "-o", "new.vtu")
+        new = self.read("new.vtu")
+        q = self.values("new.vtu", "q")
+        self.assertGreater(len(new[1]), 1.5 * len(old[1]))
+        self.assert_from_centers(old, new, q)
+        self.assertEqual(self.values("new.vtu", "dry&amp;wet")[:len(new[1])], tuple(float(v > 1.5) for v in q[:len(new[1])]))
+        self.succeed("adapt", "new.vtu", "--min-length", 0.5, "-o", "coarse.vtu")
+        self.assert_from_centers((new[0], new[1], q), self.read("coarse.vtu"), self.values("coarse.vtu", "q"))
+
+    def test_integrals_stay_where_that_is_asked_for(self):
+        points, triangles, values = self.old()
+        whole = math.fsum(area(points, t) * v for t, v in zip(triangles, values))
+        for name, lengths in ("fine.vtu", ("--lengths", "h")), ("coarse.vtu", ("--min-length", 0.7)):
+            self.succeed("adapt", "old.vtu", *lengths, "--transfer", "q=conserve", "-o", name)
+            new_points, new_triangles, _ = self.read(name)
+            q = self.values(name, "q")
+            self.assertAlmostEqual(math.fsum(area(new_points, t) * v for t, v in zip(new_triangles, q)), whole,
+                                   delta=1e-12 * whole)
+            self.assertTrue(all(min(values) <= v <= max(values) for v in q[:len(new_triangles)]))
+
+    def test_what_stays_keeps_its_bits(self):
+        points, triangles, values = self.old(0.15)
+        self.write("moved.poly", SQUARE.replace("3 4 4", "3 4 3.5"))
+        for how in (("--max-length", 0.05, "--only", "1,1,1.5,1.5", "--transfer", "q=conserve"), ("--outline", "moved.poly")):
+            self.succeed("adapt", "old.vtu", *how, "-o", "new.vtu")
+            new_points, new_triangles, _ = self.read("new.vtu")
+            by_corners = {tuple(sorted(points[v] for v in t)): value for t, value in zip(triangles, values)}
+            stayed = [(by_corners[key], value) for t, value in zip(new_triangles, self.values("new.vtu", "q"))
+                      if (key := tuple(sorted(new_points[v] for v in t))) in by_corners]
+            self.assertGreater(len(stayed), len(triangles) / 3)
+            self.assertEqual(*map(list, zip(*stayed)))
+
+    def test_formats_without_a_place_for_them(self):
+        self.old()
+        result = self.run_program("adapt", "old.vtu", "--lengths", "h", "-o", "new.msh")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn("new.msh: has no place for data at triangles", result.stderr)
+
+    def test_names_that_the_file_has_not(self):
+        self.old()
+        self.refuse("adapt", "old.vtu", "--lengths", "h", "--transfer", "w=conserve", "-o", "new.vtu",
+                    says=["no data 'w', which --transfer names", "'h' at points", "'dry&wet', 'q' at triangles"])
+        self.refuse("adapt", "old.vtu", "--lengths", "q", "-o", "new.vtu", says=["no point data 'q'", "'h' at points"])
 
 
 class Errors(Adapt):

@@ -57,8 +57,12 @@ TEST_CASE("an adaptive mesh that the program has saved goes on as one of the lib
   const std::string path = (folder.path() / "flow.h5").string();
   job::Request request = request_for(path);
   MeshOptions options{.subdomains = {.count = 12}};
-  SUBCASE("with a bound on area, which stays") { request.bounds.area = options.max_area = 40; }
-  SUBCASE("with a number of triangles, which does not") { request.bounds.triangles = options.triangles = 2000; }
+  SUBCASE("with a bound on area, which stays") {
+    request.bounds.area = options.max_area = 40;
+  }
+  SUBCASE("with a number of triangles, which does not") {
+    request.bounds.triangles = options.triangles = 2000;
+  }
   SUBCASE("with lengths") {
     request.sizing.expression = "4+abs(x)/5";
     options.size = SizeRule::expression("4+abs(x)/5");
@@ -100,6 +104,10 @@ TEST_CASE("a saved adaptive mesh is judged and read by what is in its file") {
   CHECK(mesh.points == flow.mesh().points);
   CHECK(mesh.triangles == flow.mesh().triangles);
   REQUIRE(mesh.attribute_names == std::vector<std::string>{"u", "v_0", "v_1"});
+  TriangleData data;
+  CHECK(app::read_any_mesh(path, {}, data).attributes == mesh.attributes);
+  REQUIRE(data.size() == 1);
+  CHECK(data.at("cells") == std::vector<double>(flow.field("cells").begin(), flow.field("cells").end()));
   const auto first = flow.field("u"), second = flow.field("v");
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
     CHECK(mesh.attributes[3 * i] == first[i]);

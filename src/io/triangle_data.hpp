@@ -1,0 +1,19 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace driftmesh {
+
+/// Values at the triangles of a mesh by their names, one for each triangle: what files have of them besides what Mesh
+/// has a place for.
+using TriangleData = std::map<std::string, std::vector<double>>;
+
+/// Whether files have something of this name among the values of cells, so that no data can have it.
+[[nodiscard]] inline bool is_array_on_cells(std::string_view name) {
+  return name == "marker" || name == "region" || name == "subdomain" || name == "rank" || name == "vtkGhostType";
+}
+
+}  // namespace driftmesh
