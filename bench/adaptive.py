@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """What it costs that a mesh follows a front: a ring in the unit square, a band of short edges that widens from one generation to the next,
 with a field at points that is carried along. Each generation is checked and compared with a mesh made anew by the same lengths;
-prints a table in Markdown (docs/results/adaptive.md). Processor time on one thread. Needs the Python package on PYTHONPATH.
+prints a table in Markdown (docs/results/adaptive.md). Processor time on one thread. Needs the Python package on PYTHONPATH. With --ranks,
+instead: how even the load of a solver is after each generation on ranks, and what moves for that.
 
-usage: adaptive.py [--generations N] [--every N] [--length L]... [--freefem] [--program DRIFTMESH] [--update]
+usage: adaptive.py [--generations N] [--every N] [--length L]... [--freefem | --ranks N... | --simulator PROGRAM] [--program DRIFTMESH] [--update]
 """
 
 import argparse
+import json
 import pathlib
 import shutil
 import statistics
@@ -23,9 +25,9 @@ from table import Table  # noqa: E402
 WIDTH, GROWTH, RADIUS, STEP = 0.06, 0.2, 0.15, 0.003
 
 
-def ring(points, shortest, generation):
+def ring(points, shortest, generation, center=(0.5, 0.5)):
     """Lengths: short in a band around a circle, growing beyond it."""
-    away = np.abs(np.hypot(*(points - 0.5).T) - RADIUS - STEP * generation) - WIDTH / 2
+    away = np.abs(np.hypot(*(points - center).T) - RADIUS - STEP * generation) - WIDTH / 2
     return shortest + GROWTH * np.maximum(0, away)
 
 
@@ -147,6 +149,91 @@ def beside_freefem(options):
     return table
 
 
+ASIDE = (0.2, 0.3)  # what widens around the middle would load all ranks alike
+
+
+def first_on_ranks(communicator, shortest, subdomains):
+    start = driftmesh.mesh(square(), max_area=1e-3, threads=1)
+    for _ in range(6):
+        size = driftmesh.size_on_mesh(start, ring(start.points, shortest, 0, ASIDE), gradation=GROWTH)
+        start = driftmesh.mesh(square(), size=size, size_resolution=1, threads=1)
+    return driftmesh.DistributedAdaptiveMesh(communicator, square(), size=size, size_resolution=1, threads=1, gradation=GROWTH,
+                                             subdomains={"count": subdomains} if subdomains else {})
+
+
+def load_by_subdomain(communicator, mesh):
+    """The rank and the triangles of each subdomain: what a solver has to do that takes the same time for every triangle."""
+    own = zip(*(part.tolist() for part in np.unique(mesh.piece.mesh.subdomains, return_counts=True)))
+    return {s: (rank, load) for rank, part in enumerate(communicator.allgather(list(own))) for s, load in part}
+
+
+def sums(loads, ranks):
+    of_ranks = [0] * ranks
+    for rank, load in loads:
+        of_ranks[rank] += load
+    return of_ranks
+
+
+def follow_on_ranks(communicator, shortest, subdomains, generations):
+    """For each generation: largest load over the mean if nothing moved, and as it is; what moved, and what was above 1.05 of the mean."""
+    mesh = first_on_ranks(communicator, shortest, subdomains)
+    mesh.attach("u", mesh.piece.mesh.points[:, 0])
+    before, rows = load_by_subdomain(communicator, mesh), []
+    for generation in range(1, generations + 1):
+        mesh.adapt(ring(mesh.piece.mesh.points, shortest, generation, ASIDE))
+        after = load_by_subdomain(communicator, mesh)
+        stay, now = (sums(loads, communicator.size) for loads in
+                     ([(before[s][0], load) for s, (_, load) in after.items()], after.values()))
+        mean = sum(now) / communicator.size
+        rows.append({"triangles": sum(now), "subdomains": len(after), "before": max(stay) / mean, "after": max(now) / mean,
+                     "moved": sum(load for s, (rank, load) in after.items() if rank != before[s][0]),
+                     "above": sum(max(0, load - 1.05 * mean) for load in stay)})
+        before = after
+    return rows
+
+
+def worker(options):
+    from mpi4py import MPI
+    rows = [follow_on_ranks(MPI.COMM_WORLD, shortest, subdomains, options.generations)
+            for shortest in options.length for subdomains in options.subdomains]
+    if MPI.COMM_WORLD.rank == 0:
+        print(json.dumps(rows))
+
+
+def on_ranks(options):
+    table = Table("adaptive-ranks", f"The load of a solver on ranks, {options.generations} generations",
+                  ["ranks", "shortest", "triangles", "subdomains", "fences with moves", "if nothing moved", "largest over mean", "moved", "above", "moved over above"],
+                  f"Around {ASIDE}. The solver takes the same time for each triangle. Largest load of a rank over the mean at the worst fence, as it is and as it would be if what "
+                  "that fence moved had stayed. Moved: triangles at all fences together; above: sums over ranks of the load beyond 1.05 of the mean before that.")
+    lengths = options.length or [0.002, 0.001]
+    for ranks in options.ranks:
+        said = subprocess.run(["mpirun", "--oversubscribe", "-n", str(ranks), sys.executable, __file__, "--worker", "--generations",
+                               str(options.generations), *(word for length in lengths for word in ("--length", str(length))),
+                               "--subdomains", *map(str, options.subdomains)],
+                              check=True, capture_output=True, text=True).stdout
+        for shortest, rows in zip([length for length in lengths for _ in options.subdomains], json.loads(said)):
+            moved, above = (sum(row[key] for row in rows) for key in ("moved", "above"))
+            table.add(ranks, shortest, rows[-1]["triangles"], rows[-1]["subdomains"], sum(row["moved"] > 0 for row in rows),
+                      f"{max(row['before'] for row in rows):.3f}", f"{max(row['after'] for row in rows):.3f}", moved, round(above),
+                      f"{moved / above:.2f}" if above else "")
+    return table
+
+
+def simulated(options):
+    table = Table("adaptive-simulated", f"512 simulated ranks, {options.generations} generations",
+                  ["generations", "triangles", "placing", "efficiency", "largest over mean", "triangles moved", "largest subdomain"],
+                  "16 subdomains for each rank, and a solver of 1 us for a triangle and a step, 20 steps in a generation. Efficiency: its time on ranks that have equally "
+                  "much, over that of all generations so far: each is made by those who hold it (times of this machine, one thread), subdomains move (1 GB/s, "
+                  "0.1 us to pack and unpack a triangle), and all wait for the slowest; without the time of planning. Largest load of a rank over the mean at the "
+                  "worst fence so far; largest subdomain in means of a rank. Placing: none; ours: few moves, or Zoltan's repartition and few moves; repartition: "
+                  "Zoltan's alone; from scratch: the same without regard to where subdomains are.")
+    said = subprocess.run([options.simulator, "512", "16", str((options.length or [0.0005])[0]), str(options.generations)], check=True,
+                          capture_output=True, text=True).stdout
+    for line in said.splitlines():
+        table.add(*line.strip("| ").split(" | "))
+    return table
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\nusage")[0])
     parser.add_argument("--generations", type=int, default=20)
@@ -154,13 +241,21 @@ def main():
     parser.add_argument("--length", type=float, action="append", help="shortest length in the ring; 0.0005 makes about 2 million triangles")
     parser.add_argument("--repetitions", type=int, default=3, help="beside FreeFEM")
     parser.add_argument("--freefem", action="store_true", help="compare with FreeFEM's adaptmesh instead")
+    parser.add_argument("--ranks", type=int, nargs="+", metavar="N", help="on so many ranks instead")
+    parser.add_argument("--subdomains", type=int, nargs="+", default=[0, 400], metavar="N", help="of ranks; 0: by default")
+    parser.add_argument("--simulator", metavar="PROGRAM", help="driftmesh_bench_adaptive_ranks: on simulated ranks instead")
+    parser.add_argument("--worker", action="store_true", help=argparse.SUPPRESS)  # one of these ranks
     parser.add_argument("--program", default=PROJECT / "build/release/driftmesh", help="says which compiler it was")
     results.add_option(parser)
     options = parser.parse_args()
     global driftmesh, np  # only to measure: --help does without
-    import driftmesh
-    import numpy as np
-    results.show("bench/adaptive.py", map(beside_freefem if options.freefem else measured, [options]), options)
+    if not options.simulator:
+        import driftmesh
+        import numpy as np
+    if options.worker:
+        return worker(options)
+    suite = beside_freefem if options.freefem else on_ranks if options.ranks else simulated if options.simulator else measured
+    results.show("bench/adaptive.py", map(suite, [options]), options)
 
 
 if __name__ == "__main__":

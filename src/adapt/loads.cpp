@@ -81,21 +81,27 @@ Loads loads_of(const Generation& before, const Generation& after, const Fields& 
   return loads;
 }
 
-double imbalance(const Loads& loads, const IdVector<SubdomainId, Rank>& holders) {
+IdVector<Rank, double> speeds_of(const Loads& loads) {
   double known = 0, count = 0;
   for (const double speed : loads.speeds)
     if (speed > 0) known += speed, ++count;
-  const double mean = count > 0 ? known / count : 1;
-  IdVector<Rank, double> work(loads.speeds.size(), 0.0);
+  IdVector<Rank, double> speeds = loads.speeds;
+  for (double& speed : speeds)
+    if (!(speed > 0)) speed = count > 0 ? known / count : 1;
+  return speeds;
+}
+
+double imbalance(const Loads& loads, const IdVector<SubdomainId, Rank>& holders) {
+  const IdVector<Rank, double> speed_of = speeds_of(loads);
+  IdVector<Rank, double> work(speed_of.size(), 0.0);
   double all = 0, speeds = 0, slowest = 0;
   for (const SubdomainId s : ids_of(holders)) {
     work[holders[s]] += loads.work[s];
     all += loads.work[s];
   }
   for (const Rank r : ids_of(work)) {
-    const double speed = loads.speeds[r] > 0 ? loads.speeds[r] : mean;
-    speeds += speed;
-    slowest = std::max(slowest, work[r] / speed);
+    speeds += speed_of[r];
+    slowest = std::max(slowest, work[r] / speed_of[r]);
   }
   return all > 0 ? std::max(1.0, slowest * speeds / all) : 1;
 }

@@ -31,6 +31,9 @@ struct Loads {
 [[nodiscard]] Loads loads_of(const Generation& before, const Generation& after, const Fields& fields,
                              const Spent& spent, Ranks& ranks);
 
+/// The speeds of ranks, where those that are not known are the mean of the others.
+[[nodiscard]] IdVector<Rank, double> speeds_of(const Loads& loads);
+
 /// The time of the slowest rank over what it would be if all took the same; at least 1.
 [[nodiscard]] double imbalance(const Loads& loads, const IdVector<SubdomainId, Rank>& holders);
 

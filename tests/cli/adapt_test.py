@@ -44,7 +44,8 @@ def as_vtu(points, triangles, data, at_triangles={}):
             f'<UnstructuredGrid><Piece NumberOfPoints="{len(points)}" NumberOfCells="{len(triangles)}"><PointData>'
             + "".join(array(name, "Float64", map(repr, values)) for name, values in data.items())
             + '</PointData><CellData>'
-            + "".join(array(name, "Float64", map(repr, values)) for name, values in at_triangles.items())
+            + "".join(array(name, "Float64", (repr(v) for row in rows for v in row), len(rows[0]))
+                      for name, rows in at_triangles.items())
             + '</CellData><Points>'
             + array("Points", "Float64", (repr(x) for p in points for x in (*p, 0.0)), 3) + "</Points><Cells>"
             + array("connectivity", "Int64", (v for t in triangles for v in t))
@@ -275,7 +276,8 @@ class AtTriangles(Adapt):
         rng = random.Random(len(triangles))
         values = [rng.uniform(1, 2) for _ in triangles]
         self.write("old.vtu", as_vtu(points, triangles, {"h": [0.2 + 0.1 * x for x, _ in points]},
-                                     {"q": values, "dry&wet": [float(v > 1.5) for v in values]}))
+                                     {"q": [(v,) for v in values], "dry&wet": [(float(v > 1.5),) for v in values],
+                                      "flow": [(v, -v) for v in values]}))
         return points, triangles, values
 
     def values(self, name, array):
@@ -304,6 +306,8 @@ class AtTriangles(Adapt):
         self.assertGreater(len(new[1]), 1.5 * len(old[1]))
         self.assert_from_centers(old, new, q)
         self.assertEqual(self.values("new.vtu", "dry&amp;wet")[:len(new[1])], tuple(float(v > 1.5) for v in q[:len(new[1])]))
+        self.assertEqual(self.values("new.vtu", "flow_0"), q)
+        self.assertEqual(self.values("new.vtu", "flow_1"), tuple(-v for v in q))
         self.succeed("adapt", "new.vtu", "--min-length", 0.5, "-o", "coarse.vtu")
         self.assert_from_centers((new[0], new[1], q), self.read("coarse.vtu"), self.values("coarse.vtu", "q"))
 
@@ -339,7 +343,7 @@ class AtTriangles(Adapt):
     def test_names_that_the_file_has_not(self):
         self.old()
         self.refuse("adapt", "old.vtu", "--lengths", "h", "--transfer", "w=conserve", "-o", "new.vtu",
-                    says=["no data 'w', which --transfer names", "'h' at points", "'dry&wet', 'q' at triangles"])
+                    says=["no data 'w', which --transfer names", "'h' at points", "'dry&wet', 'flow_0', 'flow_1', 'q' at triangles"])
         self.refuse("adapt", "old.vtu", "--lengths", "q", "-o", "new.vtu", says=["no point data 'q'", "'h' at points"])
 
 

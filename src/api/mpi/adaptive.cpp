@@ -7,7 +7,7 @@
 
 #include "api/adaptive_core.hpp"
 #include "api/call.hpp"
-#include "api/mpi/place_by_zoltan.hpp"
+#include "api/mpi/place_parts.hpp"
 #include "api/mpi/with_team.hpp"
 #include "base/formatted.hpp"
 #include "job/rounds_on_ranks.hpp"
@@ -43,9 +43,9 @@ struct DistributedAdaptiveMesh::Impl {
     }));
   }
 
-  [[nodiscard]] adapt::Placing placing() const {
-    return [this](const adapt::Loads& loads, const adapt::Generation& generation) {
-      return place_by_zoltan(communicator, core.session().decomposition(), loads, generation);
+  [[nodiscard]] adapt::Placing placing(Ranks& ranks) const {
+    return [this, &ranks](const adapt::Loads& loads, const adapt::Generation& generation) {
+      return place_parts(communicator, ranks, core.session().decomposition(), loads, generation);
     };
   }
 
@@ -101,11 +101,11 @@ const AdaptiveOptions& DistributedAdaptiveMesh::options() const {
 }
 
 void DistributedAdaptiveMesh::adapt(std::span<const double> lengths) {
-  impl_->together([&](Ranks& ranks) { impl_->core.adapt(lengths, ranks, impl_->placing()); });
+  impl_->together([&](Ranks& ranks) { impl_->core.adapt(lengths, ranks, impl_->placing(ranks)); });
 }
 
 void DistributedAdaptiveMesh::adapt(const std::function<double(const Point&)>& size) {
-  impl_->together([&](Ranks& ranks) { impl_->core.adapt(size, ranks, impl_->placing()); });
+  impl_->together([&](Ranks& ranks) { impl_->core.adapt(size, ranks, impl_->placing(ranks)); });
 }
 
 std::vector<double> DistributedAdaptiveMesh::lengths_from_error(std::span<const double> indicators, double target,

@@ -1,7 +1,11 @@
-#include "api/mpi/place_by_zoltan.hpp"
+#include "api/mpi/place_parts.hpp"
 
+#include <map>
 #include <memory>
+#include <utility>
 
+#include "adapt/few_moves.hpp"
+#include "adapt/of_all_parts.hpp"
 #include "balancer/zoltan/zoltan_partition.hpp"
 
 namespace driftmesh {
@@ -22,12 +26,9 @@ std::shared_ptr<const balancer::Layout> layout_of(const Decomposition& decomposi
   return layout;
 }
 
-}  // namespace
-
-std::vector<Rank> place_by_zoltan(MPI_Comm communicator, const Decomposition& decomposition, const adapt::Loads& loads,
-                                  const adapt::Generation& generation) {
-  constexpr double kEven = 1.05;
-  if (adapt::imbalance(loads, generation.holders) <= kEven) return {};
+/// The ranks of the parts of this one. Collective.
+std::map<SubdomainId, Rank> place_by_zoltan(MPI_Comm communicator, const Decomposition& decomposition,
+                                            const adapt::Loads& loads, const adapt::Generation& generation) {
   balancer::LoadSnapshot own;
   own.layout = layout_of(decomposition, generation);
   for (const double speed : loads.speeds) own.ranks.push_back({.speed = speed});
@@ -42,9 +43,28 @@ std::vector<Rank> place_by_zoltan(MPI_Comm communicator, const Decomposition& de
       own,
       {{"LB_METHOD", "GRAPH"}, {"GRAPH_PACKAGE", "PHG"}, {"IMBALANCE_TOL", "1.03"}, {"PHG_EDGE_SIZE_THRESHOLD", "1.0"}},
       MPI_Comm_c2f(communicator));
-  std::vector<Rank> ranks;
-  for (const balancer::Part part : parts) ranks.push_back(static_cast<Rank>(part));
+  std::map<SubdomainId, Rank> ranks;
+  for (std::size_t i = 0; i < parts.size(); ++i) ranks[generation.here[i]] = static_cast<Rank>(parts[i]);
   return ranks;
+}
+
+}  // namespace
+
+std::vector<Rank> place_parts(MPI_Comm communicator, Ranks& ranks, const Decomposition& decomposition,
+                              const adapt::Loads& loads, const adapt::Generation& generation) {
+  constexpr double kEven = 1.05;
+  if (adapt::imbalance(loads, generation.holders) <= kEven) return {};
+  std::vector<std::pair<SubdomainId, SubdomainId>> neighbors;
+  for (const Interface& i : interfaces(decomposition)) neighbors.emplace_back(i.first, i.second);
+  IdVector<SubdomainId, Rank> holders = adapt::few_moves(loads, generation.holders, neighbors, kEven);
+  if (adapt::imbalance(loads, holders) > kEven) {
+    const std::map<SubdomainId, Rank> own = place_by_zoltan(communicator, decomposition, loads, generation);
+    holders = adapt::of_all_parts(ranks, generation, [&](SubdomainId s) { return own.at(s); });
+    holders = adapt::few_moves(loads, holders, neighbors, kEven);
+  }
+  std::vector<Rank> own;
+  for (const SubdomainId s : generation.here) own.push_back(holders[s]);
+  return own;
 }
 
 }  // namespace driftmesh
