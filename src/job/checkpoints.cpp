@@ -7,6 +7,7 @@
 #include "base/failure.hpp"
 #include "base/key_error.hpp"
 #include "base/stopwatch.hpp"
+#include "base/temporary_files.hpp"
 #include "distributed/parts_file.hpp"
 #include "driftmesh/error.hpp"
 #include "job/fence.hpp"
@@ -85,7 +86,9 @@ Checkpoints::Checkpoints(Rules rules, Ranks& ranks, std::function<std::map<std::
       check_all_(std::move(check_all)),
       watch_(watch),
       last_fence_(ranks_.now()),
-      last_save_(last_fence_) {}
+      last_save_(last_fence_) {
+  if (ranks_.rank() == Rank{0}) remove_remains_beside(rules_.path);  // of the run that goes on here
+}
 
 bool Checkpoints::halts() const {
   if (ends_ || NotedSignals::told_to_end() || NotedSignals::requested()) return true;
