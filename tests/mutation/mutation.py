@@ -4,7 +4,7 @@ copy once, and runs for each fault the tests that pass its place, shortest first
 
 usage: mutation.py [--box NAME ...] [--changed BASE] [--line FILE:LINE ...] [-j N] [--update] ...
 
-The copy and its build are build/mutation. The exit code is 0 if the tests notice at least 98 % of the faults that somebody could
+The copy and its build are build/mutation, or what --copy names. The exit code is 0 if the tests notice at least 98 % of the faults that somebody could
 notice (with --changed or --line: all), 1 if not, and 2 if something is wrong with the faults, the build or the tests themselves.
 """
 
@@ -110,7 +110,8 @@ def build(jobs):
     with (COPY / "build.log").open("w") as log:
         run("cmake", "--preset", "ci", "-Wno-dev")
         programs = {str(pathlib.Path(p).relative_to(BUILD)) for test in tests_of_ctest() for p in test["command"] if p.startswith(f"{BUILD}/")}
-        run("nice", "-n", "5", "ninja", "-k", "0", "-C", str(BUILD), "-j", str(jobs), *sorted(programs))
+        folders = [f"tests/{name}/all" for name in FOLDERS]  # ctest tells no command whose program is not there yet
+        run("nice", "-n", "5", "ninja", "-k", "0", "-C", str(BUILD), "-j", str(jobs), *folders, *sorted(programs))
 
 
 # ---- The tests ----
@@ -189,6 +190,30 @@ class Verdict:
     def __init__(self, fault, how, by="", tried=0, seconds=0.0):
         self.fault, self.how, self.by, self.tried, self.seconds = fault, how, by, tried, seconds
 
+    @property
+    def noticed(self):
+        return self.how in ("failed", "timeout")
+
+
+class Verdicts:
+    """Those of all runs on the copy, by the numbers of faults: a run may be stopped, and boxes may be tried one by one."""
+
+    def __init__(self):
+        self.store = COPY / "verdicts.json"
+        self.known = json.loads(self.store.read_text()) if self.store.is_file() else {}
+
+    def keep(self, v):
+        self.known[str(v.fault.number)] = [v.how, v.by, v.tried, v.seconds]
+        self.store.write_text(json.dumps(self.known))
+
+    def of(self, fault):
+        known = self.known.get(str(fault.number))
+        return known and Verdict(fault, *known)
+
+    def killer(self, fault):
+        v = self.of(fault)
+        return v.by if v and v.noticed else None
+
 
 def try_fault(fault, usable, first, budget):
     passing = sorted((u for u in usable if fault.number % PLACES in u.places), key=lambda u: (u.name != first, u.seconds))
@@ -203,6 +228,10 @@ def try_fault(fault, usable, first, budget):
     return Verdict(fault, "survived" if passing else "unreached", "", tried, time.monotonic() - begin)
 
 
+def in_order(kept, some):
+    return sorted((kept.of(f) for f in some), key=lambda v: (v.fault.box, v.fault.file, v.fault.line))
+
+
 def harmless_words(verdicts):
     """What changes nothing, and why."""
     words = [f"- `{v.fault.file}`: {v.fault.meaning}: {v.fault.harmless}" for v in verdicts if v.fault.harmless]
@@ -210,21 +239,24 @@ def harmless_words(verdicts):
 
 
 def missed_words(verdicts):
-    words = [f"- `{v.fault.file}`: {v.fault.meaning}" for v in verdicts if v.how in ("survived", "unreached") and not v.fault.harmless]
+    words = [f"- `{v.fault.file}`: {v.fault.meaning}" for v in verdicts if not v.noticed and not v.fault.harmless]
     return "\n".join(["Missed:", "", *words]) if words else ""
 
 
-def table(verdicts, seconds):
-    counts = collections.defaultdict(collections.Counter)
+def table(verdicts):
+    counts, seconds = collections.defaultdict(collections.Counter), collections.Counter()
     for v in verdicts:
         for row in (v.fault.box, "all"):
-            counts[row]["harmless" if v.fault.harmless and v.how in ("survived", "unreached") else v.how] += 1
-    made = Table("mutation", "Faults that the tests notice", ["faults in", "faults", "noticed", "of these by time", "missed", "not reached", "change nothing", "share noticed"],
-                 "\n\n".join(filter(None, [f"{seconds / 60:.0f} minutes after the build.", missed_words(verdicts), harmless_words(verdicts)])))
+            counts[row]["harmless" if v.fault.harmless and not v.noticed else v.how] += 1
+            seconds[row] += v.seconds
+    made = Table("mutation", "Faults that the tests notice",
+                 ["faults in", "faults", "noticed", "of these by time", "missed", "not reached", "change nothing", "share noticed", "minutes of tests"],
+                 "\n\n".join(filter(None, [missed_words(verdicts), harmless_words(verdicts)])))
     for row in [*sorted(set(counts) - {"all"}), "all"]:
         c = counts[row]
         noticed, all_of_them = c["failed"] + c["timeout"], sum(c.values())
-        made.add(row, all_of_them, noticed, c["timeout"], c["survived"], c["unreached"], c["harmless"], percent(noticed / max(1, all_of_them - c["harmless"])))
+        made.add(row, all_of_them, noticed, c["timeout"], c["survived"], c["unreached"], c["harmless"], percent(noticed / max(1, all_of_them - c["harmless"])),
+                 round(seconds[row] / 60))
     return made
 
 
@@ -240,6 +272,7 @@ def chosen(data, options):
 
 
 def main():
+    global COPY, BUILD
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--box", action="append", help="only the faults of this file of faults/ (migration, protocol, ...); no others are built")
     parser.add_argument("--changed", metavar="BASE", help="only faults in files that differ from this commit")
@@ -249,8 +282,12 @@ def main():
     parser.add_argument("--longest", type=float, default=20, metavar="SECONDS", help="leave out tests that take longer (default: 20)")
     parser.add_argument("--budget", type=float, default=120, metavar="SECONDS", help="give up on a fault after this time (default: 120)")
     parser.add_argument("--no-build", action="store_true", help="use the copy as it was built, with these faults at least")
+    parser.add_argument("--copy", metavar="FOLDER", type=pathlib.Path, default=COPY,
+                        help="where the copy of the sources and its build lie; as deep as another build, they share its compiler cache (default: build/mutation)")
     results.add_option(parser)
     options = parser.parse_args()
+    COPY = options.copy.resolve()
+    BUILD = COPY / "build/ci"
     try:
         some = chosen(faults.read(), options)
         if not some:
@@ -258,7 +295,7 @@ def main():
             return 0
         if not options.no_build:
             make_copy(some)
-            say(f"building {COPY.relative_to(ROOT)} with {len(some)} faults (build.log)")
+            say(f"building {COPY} with {len(some)} faults (build.log)")
             build(options.jobs)
     except faults.BadFault as problem:
         say(f"mutation.py: {problem}")
@@ -272,28 +309,27 @@ def main():
     broken = [u.name for u in all_units.values() if u.fails]
     if broken:
         say("these fail without a fault, and are left out: " + ", ".join(broken[:20]))
-    killers_file = COPY / "killers.json"
-    killers = json.loads(killers_file.read_text()) if killers_file.is_file() else {}
-    begin = time.monotonic()
-    verdicts = []
+    kept = Verdicts()
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        jobs = [pool.submit(try_fault, f, usable, killers.get(str(f.number)), options.budget) for f in some]
+        jobs = [pool.submit(try_fault, f, usable, kept.killer(f), options.budget) for f in some]
         for job in concurrent.futures.as_completed(jobs):
             v = job.result()
-            verdicts.append(v)
-            if v.how in ("failed", "timeout"):
-                killers[str(v.fault.number)] = v.by
-                if v.fault.harmless:
-                    say(f"{v.fault.line} is called harmless, but {v.by} notices it: {v.fault.meaning}")
-            elif not v.fault.harmless:
+            kept.keep(v)
+            if v.noticed and v.fault.harmless:
+                say(f"{v.fault.line} is called harmless, but {v.by} notices it: {v.fault.meaning}")
+            elif not v.noticed and not v.fault.harmless:
                 say(f"{v.how}: {v.fault.line} ({v.fault.file}), {v.tried} tests, {v.seconds:.0f} s: {v.fault.meaning} {v.by}")
-    killers_file.write_text(json.dumps(killers))
-    verdicts.sort(key=lambda v: (v.fault.box, v.fault.file, v.fault.line))
+    verdicts = in_order(kept, some)
     counted = [v for v in verdicts if not v.fault.harmless]
-    share = sum(v.how in ("failed", "timeout") for v in counted) / max(1, len(counted))
-    made = table(verdicts, time.monotonic() - begin)
+    share = sum(v.noticed for v in counted) / max(1, len(counted))
+    made = table(verdicts)
     say("\n" + made.markdown())
     if options.update:
+        everything = faults.read()
+        if untried := [f for f in everything if not kept.of(f)]:
+            say(f"{len(untried)} faults have not been tried on this copy, the first of them {untried[0].line}; nothing is recorded")
+            return 2
+        made = table(in_order(kept, everything))
         page = ROOT / results.FOLDER / "mutation.md"
         if not page.exists():
             page.write_text(PAGE)
