@@ -11,6 +11,7 @@ notice (with --changed or --line: all), 1 if not, and 2 if something is wrong wi
 import argparse
 import collections
 import concurrent.futures
+import itertools
 import json
 import os
 import pathlib
@@ -53,12 +54,12 @@ def say(text):
 class Unit:
     """What can be run alone: a test case of a doctest program, or a test of ctest as it is."""
 
-    def __init__(self, name, command, environment, folder, doctest):
-        self.name, self.command, self.environment, self.folder, self.doctest = name, command, environment, folder, doctest
+    def __init__(self, name, command, environment, folder, doctest, is_case=False):
+        self.name, self.command, self.environment, self.folder, self.doctest, self.is_case = name, command, environment, folder, doctest, is_case
         self.seconds, self.places, self.fails = 0.0, frozenset(), False
 
     def run(self, timeout, **environment):
-        """'passed', 'failed' or 'timeout'."""
+        """'passed', 'failed' or 'timeout', and what it says."""
         with tempfile.TemporaryDirectory(prefix="driftmesh-mutation-", ignore_cleanup_errors=True) as scratch, tempfile.TemporaryFile() as output:
             process = subprocess.Popen(self.command, cwd=self.folder, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
                                        env={**os.environ, **self.environment, "TMPDIR": scratch, **environment}, start_new_session=True,
@@ -66,7 +67,7 @@ class Unit:
             try:
                 code = process.wait(timeout)
             except subprocess.TimeoutExpired:
-                return "timeout"
+                return "timeout", b""
             finally:
                 try:
                     os.killpg(process.pid, signal.SIGKILL)
@@ -74,8 +75,35 @@ class Unit:
                     pass
                 process.wait()
             output.seek(0)
-            ran = not self.doctest or re.search(rb"test cases: +[1-9]", output.read()) is not None
-        return "passed" if code == 0 and ran else "failed"
+            said = output.read()
+        ran = not self.doctest or re.search(rb"test cases: +[1-9]", said) is not None
+        return "passed" if code == 0 and ran else "failed", said
+
+
+def joined(some):
+    """Cases of one program as one unit: a program may take longer to start than a case."""
+    first = some[0]
+    cases, files = (",".join(dict.fromkeys(u.command[i].split("=", 1)[1] for u in some)) for i in (1, 2))
+    command = [first.command[0], f"--test-case={cases}", f"--source-file={files}", *first.command[3:]]
+    unit = Unit(first.name, command, first.environment, first.folder, True)
+    unit.seconds = sum(u.seconds for u in some)
+    return unit
+
+
+def batches(passing):
+    """Them, the shortest first, each time as many as take twice as long: the cases of a program, and the unit that runs them."""
+    seconds, passing = 2, collections.deque(passing)
+    while passing:
+        now, left = [], seconds
+        while passing and (not now or passing[0].seconds <= left):
+            left -= passing[0].seconds
+            now.append(passing.popleft())
+        seconds *= 2
+        by_program = collections.defaultdict(list)
+        for unit in now:
+            by_program[unit.command[0] if unit.is_case else unit.name].append(unit)
+        for some in by_program.values():
+            yield some, some[0] if len(some) == 1 else joined(some)
 
 
 # ---- The copy ----
@@ -146,7 +174,7 @@ def units():
                     continue
                 name = f"{pathlib.Path(file).stem}: {case}"
                 filters = [f"--test-case={case.replace(',', '?')}", f"--source-file=*{pathlib.Path(file).name}", "--abort-after=1"]
-                found[name] = Unit(name, [command[0], *filters], test["environment"], test["folder"], True)
+                found[name] = Unit(name, [command[0], *filters], test["environment"], test["folder"], True, is_case=True)
         else:
             found[test["name"]] = Unit(test["name"], command, test["environment"], test["folder"], "--source-file" in " ".join(command))
     return found
@@ -170,7 +198,7 @@ def learn_places(all_units, jobs, longest):
                 shared.write(bytes(PLACES))
                 shared.flush()
                 begin = time.monotonic()
-                outcome = unit.run(longest, DRIFTMESH_FAULTS_PASSED=shared.name)
+                outcome, _ = unit.run(longest, DRIFTMESH_FAULTS_PASSED=shared.name)
                 shared.seek(0)
                 passed = [place for place, byte in enumerate(shared.read()) if byte]
                 seen = {"programs": fingerprint(unit), "longest": longest, "seconds": time.monotonic() - begin, "outcome": outcome, "places": passed}
@@ -216,15 +244,17 @@ class Verdicts:
 
 
 def try_fault(fault, usable, first, budget):
-    passing = sorted((u for u in usable if fault.number % PLACES in u.places), key=lambda u: (u.name != first, u.seconds))
+    passing = sorted((u for u in usable if fault.number % PLACES in u.places), key=lambda u: u.seconds)
     begin, tried = time.monotonic(), 0
-    for unit in passing:
+    known = [u for u in passing if u.name == first]
+    for some, unit in itertools.chain(((known, u) for u in known), batches([u for u in passing if u.name != first])):
         if time.monotonic() - begin > budget:
             return Verdict(fault, "survived", f"{len(passing) - tried} tests not tried", tried, time.monotonic() - begin)
-        outcome = unit.run(10 + 10 * unit.seconds, DRIFTMESH_FAULT=str(fault.number))
-        tried += 1
+        outcome, said = unit.run(10 + (10 if len(some) == 1 else 4) * unit.seconds, DRIFTMESH_FAULT=str(fault.number))
+        tried += len(some)
         if outcome != "passed":
-            return Verdict(fault, outcome, unit.name, tried, time.monotonic() - begin)
+            by = next((u.name for u in some if f"TEST CASE:  {u.name.split(': ', 1)[-1]}".encode() in said), unit.name)
+            return Verdict(fault, outcome, by, tried, time.monotonic() - begin)
     return Verdict(fault, "survived" if passing else "unreached", "", tried, time.monotonic() - begin)
 
 

@@ -1,6 +1,7 @@
 #include "migration/dormant_mesh.hpp"
 
 #include <doctest/doctest.h>
+#include <malloc.h>
 
 #include <array>
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/scratch_file.hpp"
 #include "base/stopwatch.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/generate.hpp"
@@ -21,6 +23,7 @@
 #include "property/cases.hpp"
 #include "pslg/poly_file.hpp"
 #include "support/random_subdomains.hpp"
+#include "temporary_folder.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::testing;
@@ -28,6 +31,12 @@ using namespace driftmesh::testing;
 namespace {
 
 using Edge = std::pair<std::pair<double, double>, std::pair<double, double>>;
+
+/// What is allocated, 0 under sanitizers.
+std::size_t heap_bytes() {
+  const auto heap = mallinfo2();
+  return heap.uordblks + heap.hblkhd;
+}
 
 std::pair<double, double> pair_of(const Point& p) {
   return {p.x, p.y};
@@ -149,6 +158,28 @@ TEST_CASE("a mesh that slept is the same mesh") {
   }
   CHECK(regions > 0);
   CHECK(several_sides > 0);  // segments inside a subdomain
+}
+
+TEST_CASE("what sleeps in a scratch file leaves hardly anything in memory") {
+  Triangulation mesh = triangulate(generate_pipe({}));
+  prepare_corners(mesh);
+  DecomposeOptions options;
+  options.subdomains = 2;
+  const Decomposition d = decompose(mesh, options);
+  const TemporaryFolder folder;
+  ScratchFile scratch(folder.path().string());
+  SubdomainContext context{&d, {}, false};
+  context.bounds.plain.area = d.subdomains[SubdomainId{0}].area / 10'000;
+  context.scratch = &scratch;
+  Subdomain subdomain(SubdomainId{0}, context);
+  const std::size_t before = heap_bytes();
+  std::vector<SplitPoint<GlobalRootId>> said;
+  while (subdomain.active()) subdomain.work(10'000, said);
+  said = {};
+  const auto triangles = static_cast<std::size_t>(subdomain.triangles());
+  subdomain.sleep();
+  REQUIRE(triangles > 10'000);
+  CHECK(heap_bytes() < before + 4 * triangles);
 }
 
 TEST_CASE("a sleeping mesh takes at most 16 bytes per triangle, with everything that belongs to it") {

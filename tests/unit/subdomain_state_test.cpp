@@ -120,6 +120,7 @@ TEST_CASE("packed state comes back member by member") {
     CHECK(difference(unpack(subdomain.pack()), state) == "");
     CHECK(subdomain.forecast() == state.body->forecast);
     CHECK(subdomain.backlog() == 3);
+    CHECK(subdomain.pack_small() == subdomain.pack());  // what has work cannot be packed asleep
     CHECK(subdomain.triangles() == static_cast<std::int64_t>(state.body->part.mesh.live_triangles()));
     CHECK(subdomain.remaining() == doctest::Approx(state.body->forecast - static_cast<double>(subdomain.triangles())));
     StateDifference counters;
@@ -150,8 +151,10 @@ TEST_CASE("a subdomain that sleeps, moves and wakes keeps each member of its sta
 
     Subdomain subdomain = Subdomain::unpack(pack(view_of(before)), context);
     const std::uint64_t packed_awake = subdomain.packed_bytes();
+    const Bytes small = subdomain.pack_small();
     subdomain.sleep();
     REQUIRE(subdomain.dormant());
+    CHECK(small == subdomain.pack());
     CHECK(subdomain.triangles() == static_cast<std::int64_t>(body.part.mesh.live_triangles()));
     CHECK(subdomain.packed_bytes() == packed_awake);
     CHECK(subdomain.forecast() == body.forecast);
