@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <random>
 #include <string>
@@ -17,6 +18,7 @@
 #include "property/cases.hpp"
 #include "support/id_literals.hpp"
 #include "support/random_subdomains.hpp"
+#include "support/same_state.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::testing;
@@ -162,6 +164,46 @@ TEST_CASE("damage with a correct checksum is rejected, or leaves a mesh whose in
   MESSAGE(refused << " refused, " << accepted << " accepted");
   CHECK(refused > accepted);
   CHECK(accepted > 0);  // low bits of coordinates, forecasts and counters cannot be checked
+}
+
+TEST_CASE("bytes that say what cannot be are refused with the reason, however well packed") {
+  RandomSubdomains world(21, 2, 400);
+  const SubdomainState awake = unpack(half_refined(world, 0_sub).pack()), sleeper = unpack(asleep(world, 0_sub).pack());
+  const auto refusal = [](SubdomainState state, const auto& break_it) -> std::string {
+    break_it(state);
+    try {
+      static_cast<void>(unpack(pack(view_of(state))));
+    } catch (const Error& error) {
+      const std::string what = error.what();
+      return what.substr(what.rfind(": ") + 2);
+    }
+    return "";
+  };
+  const auto nothing = [](SubdomainState&) {};
+  REQUIRE(refusal(awake, nothing) == "");
+  REQUIRE(refusal(sleeper, nothing) == "");
+  constexpr dyadic::Path kTooDeep = dyadic::Path{1} << (dyadic::kMaxDepth + 1);
+  CHECK(refusal(awake, [](auto& s) {
+          s.pending.push_back({GlobalRootId{0}, kTooDeep});
+        }) == "a split point has no valid place");
+  CHECK(refusal(awake, [](auto& s) { std::swap(s.body->part.roots[RootId{0}], s.body->part.roots[RootId{1}]); }) ==
+        "roots out of order");
+  CHECK(refusal(awake, [](auto& s) { s.body->forecast = NAN; }) == "the forecast is not a number");
+  CHECK(refusal(awake, [](auto& s) { s.body->refiner.size.clear(), s.body->refiner.size.push_back(1); }) ==
+        "the size field is not known at each vertex");
+  CHECK(refusal(awake, [](auto& s) { s.refined = true; }) == "it contradicts itself on being refined");
+  CHECK(refusal(sleeper, [](auto& s) { s.refined = false; }) == "it is dormant but not refined");
+  CHECK(refusal(sleeper, [](auto& s) { s.dormant->forecast = NAN; }) == "the forecast is not a number");
+  const SubsegmentId behind = sleeper.dormant->mesh.skeleton().mesh.subsegments.next_id();
+  CHECK(refusal(sleeper, [&](auto& s) { s.dormant->unsplittable = {behind}; }) ==
+        "an unsplittable subsegment does not exist");
+  const auto swap_points = [](SubdomainState& s) {
+    DormantMesh::fields(s.dormant->mesh, [](auto& field) {
+      if constexpr (requires { field[0].x; })
+        if (field.size() > 1) std::swap(field[0], field[field.size() - 1]);
+    });
+  };
+  CHECK(refusal(sleeper, swap_points) != "");  // its triangles lie the wrong way around
 }
 
 TEST_CASE("every invariant of a triangulation is checked") {
