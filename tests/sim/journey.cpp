@@ -29,6 +29,8 @@ bool ends(Kind kind) {
 
 constexpr double kGiveUp = 10, kWalltime = 15;  // seconds after which a run in which a rank hangs ends
 
+constexpr std::int64_t kLess = 3;  // triangles by which a slice may leave fewer: splits delete free points
+
 /// Whether a checkpoint is as write_parts() leaves it. Returns what is wrong.
 std::string damage(const std::string& content) {
   const TemporaryFolder folder;
@@ -202,9 +204,10 @@ class Journeys::Travel {
     return wrong.empty() ? "" : "the checkpoint is damaged: " + wrong;
   }
 
-  /// Whether it went on with all that was kept.
+  /// Whether it went on with all that was kept, as far as triangles tell.
   std::string beginning(const Life& life) const {
-    if (!resumes_ || !life.has_begun || life.first_triangles >= kept_) return {};
+    const std::int64_t lost = kept_ - life.first_triangles;
+    if (!resumes_ || !life.has_begun || lost <= kLess * life.ranks) return {};
     return fmt::format("{} triangles were kept, but it began with {}", kept_, life.first_triangles);
   }
 

@@ -189,6 +189,7 @@ Life live(const LifePlan& wanted, const Files& files, Sabotage sabotage) {
       },
       [&] { life.files = files_in(folder.path()); });
   std::signal(SIGTERM, SIG_DFL);  // NotedSignals of several ranks in one process restore those of each other
+  life.ranks = plan.ranks;
   life.stuck = turns.stuck();
   life.ended = turns.ended();
   life.met = turns.met();

@@ -51,6 +51,7 @@ struct Life {
   std::vector<Fault> met{};
   std::optional<Saved> saved{};  ///< the last one of this life
   int saves = 0;
+  std::int32_t ranks = 1;
   int refused = 0;                   ///< warnings that one could not be written
   bool has_begun = false;            ///< all ranks have refined
   std::int64_t first_triangles = 0;  ///< what they began with, after a slice of work of each at most
