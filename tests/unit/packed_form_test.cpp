@@ -182,8 +182,8 @@ TEST_CASE("bytes that say what cannot be are refused with the reason, however we
   const auto nothing = [](SubdomainState&) {};
   REQUIRE(refusal(awake, nothing) == "");
   REQUIRE(refusal(sleeper, nothing) == "");
-  constexpr dyadic::Path kTooDeep = dyadic::Path{1} << (dyadic::kMaxDepth + 1);
   CHECK(refusal(awake, [](auto& s) {
+          constexpr dyadic::Path kTooDeep = dyadic::Path{1} << (dyadic::kMaxDepth + 1);
           s.pending.push_back({GlobalRootId{0}, kTooDeep});
         }) == "a split point has no valid place");
   CHECK(refusal(awake, [](auto& s) { std::swap(s.body->part.roots[RootId{0}], s.body->part.roots[RootId{1}]); }) ==
