@@ -164,8 +164,8 @@ Order new_order(const Asked& asked, const Place& place, RunRecord& record, Watch
 
 Order order_for(const Asked& asked, const Place& place, RunRecord& record, Watch& watch) {
   const Request& request = asked.request;
-  if (!place.is_team()) check_alone(request);
   check(request, place.kind(), asked.given.policies);
+  if (!place.is_team()) check_alone(request);
   if (request.run.method == Method::kPdr && place.cut(request) == Cut::kAlways)
     throw KeyError("run.method", "is pdr, which only experiments have", "use driftmesh run");
   if (place.kind() != kSimulated) check_ranks(request, place.kind(), ranks_counted(place));
