@@ -16,7 +16,7 @@ namespace driftmesh::mutants {
 namespace {
 
 class MeshEditor {
-  std::uint64_t below(std::uint64_t limit) { return random_() % limit; }
+  std::uint64_t below(std::uint64_t end) { return random_() % end; }
   double part() { return static_cast<double>(below(1U << 20)) / (1U << 20); }
   template <class Items>
   auto& one_of(Items& items) {
