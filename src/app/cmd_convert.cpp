@@ -16,6 +16,7 @@
 #include "app/run_files.hpp"
 #include "cli/values.hpp"
 #include "driftmesh/error.hpp"
+#include "driftmesh/mesh_order.hpp"
 #include "io/mesh_file.hpp"
 #include "mesh/mesh_edges.hpp"
 #include "pslg/names.hpp"
