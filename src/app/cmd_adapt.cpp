@@ -60,8 +60,8 @@ std::string list_of_names(const NamedFields& fields, FieldPlace place) {
 /// All data of the mesh, those at points first.
 NamedFields take_data(Mesh& mesh, TriangleData data) {
   NamedFields fields = patch::take_point_data(mesh);
-  for (auto& [name, values] : data)
-    fields.push_back({name, {.place = FieldPlace::kTriangles, .values = std::move(values)}});
+  for (auto& named : data)
+    fields.push_back({named.first, {.place = FieldPlace::kTriangles, .values = std::move(named.second)}});
   return fields;
 }
 
