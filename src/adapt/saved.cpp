@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "distributed/packed_parts.hpp"
 #include "distributed/parts_file.hpp"
 #include "driftmesh/error.hpp"
 #include "runtime/plan_bytes.hpp"
@@ -80,14 +81,17 @@ Saved read_own(const std::string& path, const Ranks& ranks) {
 }  // namespace
 
 void save(const std::string& path, const SavedHead& head, const std::vector<SubdomainId>& here,
-          const std::function<Bytes(SubdomainId)>& packed, Ranks& ranks) {
+          const std::function<Bytes(SubdomainId)>& pack, std::uint64_t room, Ranks& ranks) {
   std::map<std::string, Bytes> heads;
   std::map<SubdomainId, std::uint64_t> sizes;
+  PackedParts parts(pack, room);
   ranks.agree([&] {
     if (ranks.rank() == Rank{0}) heads[kAdaptiveMeshFile.head] = bytes_of(head);
-    for (const SubdomainId s : here) sizes[s] = packed(s).size();
+    for (const SubdomainId s : here) sizes[s] = parts.size(s);
   });
-  write_parts(path, kAdaptiveMeshFile, heads, head.plan.decomposition.size(), sizes, packed, ranks);
+  write_parts(
+      path, kAdaptiveMeshFile, heads, head.plan.decomposition.size(), sizes,
+      [&](SubdomainId s) { return parts.take(s); }, ranks);
 }
 
 Saved read_saved(const std::string& path, Ranks& ranks) {

@@ -14,6 +14,7 @@
 #include "base/formatted.hpp"
 #include "base/in_turns.hpp"
 #include "base/stopwatch.hpp"
+#include "distributed/packed_parts.hpp"
 #include "driftmesh/error.hpp"
 
 namespace driftmesh::adapt {
@@ -109,7 +110,8 @@ void Session::save(const std::string& path, Bytes more, const Means& means) {
                  .fields = fields_without_values(fields_),
                  .more = std::move(more)};
   adapt::save(
-      path, head, present_.here, [&](SubdomainId s) { return pack(present_, s, fields_); }, means.ranks);
+      path, head, present_.here, [&](SubdomainId s) { return pack(present_, s, fields_); }, PackedParts::kMostRoom,
+      means.ranks);
 }
 
 Generation Session::assembled(Parts parts, Ranks& ranks) const {

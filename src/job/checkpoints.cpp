@@ -8,6 +8,7 @@
 #include "base/key_error.hpp"
 #include "base/stopwatch.hpp"
 #include "base/temporary_files.hpp"
+#include "distributed/packed_parts.hpp"
 #include "distributed/parts_file.hpp"
 #include "driftmesh/error.hpp"
 #include "job/fence.hpp"
@@ -28,32 +29,6 @@ std::exception_ptr caught(const std::function<void()>& work) {
 std::exception_ptr told_to_end() {
   return std::make_exception_ptr(LimitError("stopped by SIGTERM before all bounds were met. No mesh was written"));
 }
-
-/// Parts of a checkpoint, which are asked first for their size and then for their bytes. Those that fit into some
-/// memory are packed once, the others twice.
-class PackedParts {
- public:
-  explicit PackedParts(const RefinementInRounds& refinement) : refinement_(refinement) {}
-
-  [[nodiscard]] std::uint64_t size(SubdomainId s) {
-    Bytes bytes = refinement_.halted(s);
-    const std::uint64_t size = bytes.size();
-    if (size > room_) return size;
-    room_ -= size;
-    kept_.emplace(s, std::move(bytes));
-    return size;
-  }
-  [[nodiscard]] Bytes take(SubdomainId s) {
-    const auto found = kept_.find(s);
-    return found == kept_.end() ? refinement_.halted(s) : std::move(found->second);
-  }
-
- private:
-  static constexpr std::uint64_t kMost = std::uint64_t{256} << 20;
-  const RefinementInRounds& refinement_;
-  std::uint64_t room_ = std::min(kMost, room_under_cap() / 4);
-  std::map<SubdomainId, Bytes> kept_;
-};
 
 /// What all have said.
 struct Heard {
@@ -87,7 +62,7 @@ Checkpoints::Checkpoints(Rules rules, Ranks& ranks, std::function<std::map<std::
       watch_(watch),
       last_fence_(ranks_.now()),
       last_save_(last_fence_) {
-  if (ranks_.rank() == Rank{0}) remove_remains_beside(rules_.path);  // of the run that goes on here
+  if (ranks_.rank() == Rank{0}) remove_remains_beside(rules_.path);  // those the run has left that goes on here
 }
 
 bool Checkpoints::halts() const {
@@ -141,7 +116,8 @@ std::string Checkpoints::save(const RefinementInRounds& refinement) {
   const Stopwatch took;
   std::map<std::string, Bytes> heads;
   std::map<SubdomainId, std::uint64_t> sizes;
-  PackedParts parts(refinement);
+  PackedParts parts([&](SubdomainId part) { return refinement.halted(part); },
+                    std::min(PackedParts::kMostRoom, room_under_cap() / 4));
   std::uint64_t bytes = 0;
   const auto look_up = [&] {
     if (rules_.saving) rules_.saving();

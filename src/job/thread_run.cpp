@@ -10,6 +10,7 @@
 #include "base/key_error.hpp"
 #include "distributed/assembly.hpp"
 #include "distributed/held_subdomains.hpp"
+#include "distributed/packed_parts.hpp"
 #include "distributed/parts_file.hpp"
 #include "distributed/piece_series.hpp"
 #include "distributed/write_distributed.hpp"
@@ -273,7 +274,9 @@ void ThreadRun::save(const Request& request, Watch& watch) {
     });
     return bytes;
   };
-  timed(watch, "save", [&] { adapt::save(path, head, here, packed, ranks()); });
+  timed(watch, "save", [&] {
+    adapt::save(path, head, here, packed, std::min(PackedParts::kMostRoom, room_under_cap() / 4), ranks());
+  });
 }
 
 }  // namespace driftmesh::job
