@@ -25,17 +25,17 @@
 #include "job/make.hpp"
 #include "job/request.hpp"
 #include "protocol/mpi/mpi_transport.hpp"
+#include "runtime/plan_run.hpp"
 
 using namespace driftmesh;
 
 namespace {
 
-constexpr double kWidth = 0.06, kGrowth = 0.2, kRadius = 0.15, kSpeed = 0.003;  // of the ring of bench/adaptive.py
+constexpr double kWidth = 0.06, kGrowth = 0.2, kRadius = 0.15, kSpeed = 0.003;  // the ring in bench/adaptive.py
 constexpr double kSolver = 1e-6;                                                // seconds for a triangle and a step
 constexpr int kSteps = 20;                                                      // in a generation
 constexpr double kBandwidth = 1e9;                                              // bytes per second of a rank
 constexpr double kPacking = 1e-7;  // seconds for a triangle, on either side
-constexpr double kEven = 1.05;
 
 struct Options {
   int ranks = 512;
@@ -102,19 +102,8 @@ using Holders = IdVector<SubdomainId, Rank>;
 
 Holders by_zoltan(const adapt::Session& session, const adapt::Loads& loads, const Holders& holders,
                   const balancer::ZoltanParameters& parameters) {
-  const Decomposition& decomposition = session.decomposition();
-  auto layout = std::make_shared<balancer::Layout>();
-  layout->ranks = static_cast<std::int32_t>(loads.speeds.size());
-  for (const SubdomainId s : ids_of(decomposition.subdomains)) {
-    const Point& at = decomposition.subdomains[s].centroid;
-    layout->subdomains.push_back({.x = at.x, .y = at.y, .owner = holders[s], .neighbors = {}});
-  }
-  for (const Interface& i : interfaces(decomposition)) {
-    layout->subdomains[i.first].neighbors.push_back({i.second, i.length});
-    layout->subdomains[i.second].neighbors.push_back({i.first, i.length});
-  }
   balancer::LoadSnapshot snapshot;
-  snapshot.layout = layout;
+  snapshot.layout = layout_of(session.decomposition(), holders, static_cast<std::int32_t>(loads.speeds.size()));
   for (const double speed : loads.speeds) snapshot.ranks.push_back({.speed = speed});
   for (const SubdomainId s : ids_of(loads.work)) {
     snapshot.ranks[holders[s]].remaining += loads.work[s];
@@ -151,7 +140,8 @@ void advance(Way& way, const adapt::Loads& loads, const Counts& counts, const Ad
   const double each = (report.lengths + report.assemble + report.transfer) / counts.all;
   way.total += slowest(way.holders, ranks,
                        [&](SubdomainId s) { return each_new * counts.made[s] + each * counts.triangles[s]; });
-  const Holders next = adapt::imbalance(loads, way.holders) > kEven ? way.place(loads, way.holders) : way.holders;
+  const Holders next =
+      adapt::imbalance(loads, way.holders) > adapt::kEven ? way.place(loads, way.holders) : way.holders;
   IdVector<Rank, double> moving(ranks, 0.0);
   for (const SubdomainId s : ids_of(next)) {
     if (next[s] == way.holders[s]) continue;
@@ -177,8 +167,6 @@ void run(const Options& options) {
       {"LB_METHOD", "GRAPH"}, {"GRAPH_PACKAGE", "PHG"}, {"IMBALANCE_TOL", "1.03"}, {"PHG_EDGE_SIZE_THRESHOLD", "1.0"}};
   balancer::ZoltanParameters anew = kept;
   anew["LB_APPROACH"] = "PARTITION";
-  std::vector<std::pair<SubdomainId, SubdomainId>> neighbors;
-  for (const Interface& i : interfaces(session.decomposition())) neighbors.emplace_back(i.first, i.second);
   const auto by = [&](const balancer::ZoltanParameters& parameters) {
     return [&](const adapt::Loads& loads, const Holders& holders) {
       return by_zoltan(session, loads, holders, parameters);
@@ -188,9 +176,8 @@ void run(const Options& options) {
   std::vector<Way> ways{{"none", [](const adapt::Loads&, const Holders& holders) { return holders; }},
                         {"ours",
                          [&](const adapt::Loads& loads, const Holders& holders) {
-                           Holders few = adapt::few_moves(loads, holders, neighbors, kEven);
-                           if (adapt::imbalance(loads, few) <= kEven) return few;
-                           return adapt::few_moves(loads, repartition(loads, holders), neighbors, kEven);
+                           return adapt::even_holders(loads, holders, session.decomposition(),
+                                                      [&] { return repartition(loads, holders); });
                          }},
                         {"repartition", repartition},
                         {"from scratch", by(anew)}};

@@ -112,4 +112,14 @@ IdVector<SubdomainId, Rank> few_moves(const Loads& loads, const IdVector<Subdoma
   return room.holders();
 }
 
+IdVector<SubdomainId, Rank> even_holders(const Loads& loads, const IdVector<SubdomainId, Rank>& holders,
+                                         const Decomposition& decomposition,
+                                         const std::function<IdVector<SubdomainId, Rank>()>& anew) {
+  if (imbalance(loads, holders) <= kEven) return holders;
+  std::vector<std::pair<SubdomainId, SubdomainId>> neighbors;
+  for (const Interface& i : interfaces(decomposition)) neighbors.emplace_back(i.first, i.second);
+  const IdVector<SubdomainId, Rank> few = few_moves(loads, holders, neighbors, kEven);
+  return imbalance(loads, few) <= kEven ? few : few_moves(loads, anew(), neighbors, kEven);
+}
+
 }  // namespace driftmesh::adapt

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <utility>
 #include <vector>
 
 #include "adapt/loads.hpp"
+#include "decompose/decomposition.hpp"
 #include "driftmesh/ids.hpp"
 
 namespace driftmesh::adapt {
@@ -15,5 +17,14 @@ namespace driftmesh::adapt {
 [[nodiscard]] IdVector<SubdomainId, Rank> few_moves(const Loads& loads, const IdVector<SubdomainId, Rank>& holders,
                                                     const std::vector<std::pair<SubdomainId, SubdomainId>>& neighbors,
                                                     double even);
+
+/// The slowest rank may take so many times what it would take if all took the same.
+inline constexpr double kEven = 1.05;
+
+/// `holders` while they are even; or else few moves from them, where that is enough; or else few moves from what
+/// `anew` chooses.
+[[nodiscard]] IdVector<SubdomainId, Rank> even_holders(const Loads& loads, const IdVector<SubdomainId, Rank>& holders,
+                                                       const Decomposition& decomposition,
+                                                       const std::function<IdVector<SubdomainId, Rank>()>& anew);
 
 }  // namespace driftmesh::adapt

@@ -77,18 +77,24 @@ void prepare_balancing(RunPlan& plan, std::int32_t ranks, const balancer::Policy
 }
 
 std::shared_ptr<const balancer::Layout> layout_of(const RunPlan& plan, std::int32_t ranks) {
+  auto layout = layout_of(plan.decomposition, plan.owners, ranks);
+  for (const SubdomainId s : ids_of(plan.owners)) {
+    const double predicted = plan.decomposition.subdomains[s].predicted;
+    layout->subdomains[s].predicted = plan.balancing.options.work_to_start + predicted;
+    layout->subdomains[s].on_segments = on_segments(plan.decomposition, s);
+  }
+  return layout;
+}
+
+std::shared_ptr<balancer::Layout> layout_of(const Decomposition& decomposition,
+                                            const IdVector<SubdomainId, Rank>& holders, std::int32_t ranks) {
   auto layout = std::make_shared<balancer::Layout>();
   layout->ranks = ranks;
-  for (const SubdomainId s : ids_of(plan.owners)) {
-    const Decomposition::Subdomain& known = plan.decomposition.subdomains[s];
-    layout->subdomains.push_back({known.centroid.x,
-                                  known.centroid.y,
-                                  plan.balancing.options.work_to_start + known.predicted,
-                                  plan.owners[s],
-                                  {},
-                                  on_segments(plan.decomposition, s)});
+  for (const SubdomainId s : ids_of(holders)) {
+    const Point& at = decomposition.subdomains[s].centroid;
+    layout->subdomains.push_back({.x = at.x, .y = at.y, .owner = holders[s], .neighbors = {}});
   }
-  for (const Interface& i : interfaces(plan.decomposition)) {
+  for (const Interface& i : interfaces(decomposition)) {
     layout->subdomains[i.first].neighbors.push_back({i.second, i.length});
     layout->subdomains[i.second].neighbors.push_back({i.first, i.length});
   }

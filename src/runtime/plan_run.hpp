@@ -39,6 +39,10 @@ struct PlanOptions {
 
 /// What a balancer on this number of ranks knows of the plan.
 [[nodiscard]] std::shared_ptr<const balancer::Layout> layout_of(const RunPlan& plan, std::int32_t ranks);
+/// The same where nothing is known but where subdomains lie and who has them.
+[[nodiscard]] std::shared_ptr<balancer::Layout> layout_of(const Decomposition& decomposition,
+                                                          const IdVector<SubdomainId, Rank>& holders,
+                                                          std::int32_t ranks);
 
 /// Makes the plan's layout and policy from its other members. Throws what `policies` throws.
 void prepare_balancing(RunPlan& plan, std::int32_t ranks, const balancer::PolicyMaker& policies);
