@@ -26,7 +26,7 @@ namespace driftmesh::app {
 /// A mesh as a file has it.
 struct MeshInput {
   Mesh mesh;
-  std::optional<adapt::SavedHead> session{};  ///< of a saved adaptive mesh, with the values of its fields
+  std::optional<adapt::SavedHead> session{};  ///< what a saved adaptive mesh has besides, with the values of its fields
 };
 
 /// The same for a judge: from this file alone, with fields beside the mesh.

@@ -41,9 +41,9 @@ struct Saved {
 
 /// What has become of it.
 struct Life {
-  std::optional<std::uint64_t> digest{};  ///< of the mesh, if it was made
-  std::int64_t triangles = 0;             ///< of the mesh
-  std::vector<std::string> errors{};      ///< of ranks, each once
+  std::optional<std::uint64_t> digest{};  ///< that the mesh has, if one was made
+  std::int64_t triangles = 0;             ///< in the mesh
+  std::vector<std::string> errors{};      ///< what ranks have said, each once
   std::string abort{};                    ///< why a rank ended the job
   std::vector<std::string> lines{};       ///< what was said of ranks that do not answer
   bool stuck = false;                     ///< all would have waited forever
