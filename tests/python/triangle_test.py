@@ -7,6 +7,7 @@ import pickle
 import random
 import tempfile
 import unittest
+from fractions import Fraction
 
 import driftmesh
 import driftmesh.cytriangle as cytriangle
@@ -36,18 +37,25 @@ def smallest_angle(mesh):
     return least
 
 
+def inside_circumcircle(a, b, c, p):
+    """Whether p lies inside the circle through a, b, c, which turn left: exactly, by rational numbers."""
+    (ax, ay), (bx, by), (cx, cy) = ([Fraction(q[k]) - Fraction(p[k]) for k in range(2)] for q in (a, b, c))
+    return (ax ** 2 + ay ** 2) * (bx * cy - cx * by) + (bx ** 2 + by ** 2) * (cx * ay - ax * cy) \
+        + (cx ** 2 + cy ** 2) * (ax * by - bx * ay) > 0
+
+
 def is_delaunay(mesh):
-    """Whether no point lies inside a circumcircle, by more than rounding error."""
+    """Whether no point lies inside a circumcircle: far points by floating point, those near a circle exactly."""
     a, b, c = corners(mesh)
     used = mesh["vertices"][np.unique(mesh["triangles"][:, :3])]
-    d = 2 * (a[:, 0] * (b - c)[:, 1] + b[:, 0] * (c - a)[:, 1] + c[:, 0] * (a - b)[:, 1])
-    squares = [(p ** 2).sum(1) for p in (a, b, c)]
-    x = (squares[0] * (b - c)[:, 1] + squares[1] * (c - a)[:, 1] + squares[2] * (a - b)[:, 1]) / d
-    y = (squares[0] * (c - b)[:, 0] + squares[1] * (a - c)[:, 0] + squares[2] * (b - a)[:, 0]) / d
-    center = np.stack([x, y], 1)
-    radius = ((a - center) ** 2).sum(1)
-    distance = ((used[None] - center[:, None]) ** 2).sum(2)
-    return bool((distance >= radius[:, None] * (1 - 1e-9)).all())
+    u, v = b - a, c - a
+    squares = np.stack([(u ** 2).sum(1), (v ** 2).sum(1)])
+    center = np.stack([squares[0] * v[:, 1] - squares[1] * u[:, 1], squares[1] * u[:, 0] - squares[0] * v[:, 0]], 1)
+    center /= 2 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])[:, None]
+    radius = (center ** 2).sum(1)
+    distance = ((used[None] - a[:, None] - center[:, None]) ** 2).sum(2)
+    near = np.argwhere(distance < radius[:, None] * (1 + 1e-6))
+    return not any(inside_circumcircle(a[t], b[t], c[t], used[p]) for t, p in near)
 
 
 def as_mesh(tables):
