@@ -8,9 +8,7 @@
 #include "mesh/cdt.hpp"
 
 namespace driftmesh {
-namespace {
 
-/// The points of a subdomain in ascending order, so that roots keep their direction.
 IdVector<VertexId, GlobalPointId> points_of(const Decomposition& d, SubdomainId i) {
   const auto inner = d.inner_points_of(i);
   IdVector<VertexId, GlobalPointId> points(inner.begin(), inner.end());
@@ -23,10 +21,12 @@ IdVector<VertexId, GlobalPointId> points_of(const Decomposition& d, SubdomainId 
   return points;
 }
 
-}  // namespace
+VertexOrigin origin_of(const Decomposition& d, GlobalPointId v) {
+  return is_shell_end(d.origin[v]) ? d.origin[v] : to_int(v);
+}
 
 SubdomainMesh subdomain_triangulation(const Decomposition& d, SubdomainId i) {
-  const IdVector<VertexId, GlobalPointId> points = points_of(d, i);
+  const IdVector<VertexId, GlobalPointId> points = points_of(d, i);  // ascending: roots keep their direction
   const auto local = [&](GlobalPointId v) {
     return static_cast<std::int32_t>(std::lower_bound(points.begin(), points.end(), v) - points.begin());
   };
@@ -53,7 +53,7 @@ SubdomainMesh subdomain_triangulation(const Decomposition& d, SubdomainId i) {
   for (VertexOrigin& origin : result.mesh.origin) {
     const GlobalPointId v = points[VertexId{origin}];  // the points of the PSLG
     result.points.push_back(v);
-    origin = is_shell_end(d.origin[v]) ? d.origin[v] : to_int(v);
+    origin = origin_of(d, v);
   }
   return result;
 }

@@ -17,6 +17,11 @@ struct SubdomainMesh {
   IdVector<VertexId, GlobalPointId> points;
 };
 
+/// The points of subdomain `i`, on its roots and inside, in ascending order.
+[[nodiscard]] IdVector<VertexId, GlobalPointId> points_of(const Decomposition& decomposition, SubdomainId i);
+/// The origin of a vertex that is point `v`.
+[[nodiscard]] VertexOrigin origin_of(const Decomposition& decomposition, GlobalPointId v);
+
 /// The constrained Delaunay triangulation of subdomain `i`. Throws Error if the decomposition is broken there.
 [[nodiscard]] SubdomainMesh subdomain_triangulation(const Decomposition& decomposition, SubdomainId i);
 
