@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iterator>
 #include <map>
 #include <random>
 #include <span>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "adapt/session.hpp"
@@ -22,8 +19,8 @@
 #include "job/here.hpp"
 #include "job/make.hpp"
 #include "oracles/random_pslg.hpp"
-#include "protocol/threads/thread_network.hpp"
 #include "support/error_text.hpp"
+#include "support/on_ranks.hpp"
 #include "support/piece_of_whole.hpp"
 #include "support/random.hpp"
 #include "support/varied_domain.hpp"
@@ -34,6 +31,7 @@
 using namespace driftmesh;
 using testing::error_text;
 using testing::mentions;
+using testing::on_ranks;
 using testing::Random;
 using testing::uniform;
 
@@ -44,25 +42,6 @@ constexpr int kSeeds = 2;
 #else
 constexpr int kSeeds = 3;
 #endif
-
-/// Calls work(ranks) on each of so many ranks at once.
-void on_ranks(std::int32_t count, const std::function<void(Ranks&)>& work) {
-  protocol::ThreadNetwork network(count);
-  std::vector<std::exception_ptr> failures(static_cast<std::size_t>(count));
-  std::vector<std::thread> threads;
-  for (const Rank r : first_ids<Rank>(count))
-    threads.emplace_back([&, r] {
-      RanksOfTransport ranks(network.transport(r));
-      try {
-        work(ranks);
-      } catch (...) {
-        failures[to_index(r)] = std::current_exception();
-      }
-    });
-  for (std::thread& thread : threads) thread.join();
-  for (const std::exception_ptr& failure : failures)
-    if (failure) std::rethrow_exception(failure);
-}
 
 /// The first generation, as AdaptiveMesh makes it.
 job::LiveMesh first_generation(const Pslg& input, const MeshOptions& options) {
