@@ -82,12 +82,23 @@ adapt::Session first_generation(const Options& options, const adapt::Means& mean
 /// What there is in a generation, by subdomain.
 struct Counts {
   IdVector<SubdomainId, double> triangles, made;
+  IdVector<SubdomainId, double> divided;  // its share in the time of dividing
   double all = 0, all_made = 0;
 };
 
+void set_divided(const adapt::Session& session, Counts& counts) {
+  IdVector<SubdomainId, int> parts_of(counts.triangles.size(), 0);
+  for (const SubdomainId whole : session.whole_of()) ++parts_of[whole];
+  double all = 0;
+  for (const SubdomainId s : ids_of(session.whole_of()))
+    if (parts_of[session.whole_of()[s]] > 1) all += counts.divided[s] = counts.triangles[s];
+  for (double& share : counts.divided) share /= std::max(1.0, all);
+}
+
 Counts counts_of(const adapt::Session& session) {
   const std::size_t parts = session.decomposition().size();
-  Counts counts{IdVector<SubdomainId, double>(parts, 0.0), IdVector<SubdomainId, double>(parts, 0.0)};
+  const IdVector<SubdomainId, double> none(parts, 0.0);
+  Counts counts{none, none, none};
   const Mesh& mesh = session.piece().mesh;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto s = static_cast<SubdomainId>(mesh.subdomains[t]);
@@ -95,6 +106,7 @@ Counts counts_of(const adapt::Session& session) {
     counts.triangles[s] += 1, counts.all += 1;
     if (is_new) counts.made[s] += 1, counts.all_made += 1;
   }
+  set_divided(session, counts);
   return counts;
 }
 
@@ -138,8 +150,9 @@ void advance(Way& way, const adapt::Loads& loads, const Counts& counts, const Ad
   const std::size_t ranks = loads.speeds.size();
   const double each_new = report.refine / std::max(1.0, counts.all_made);
   const double each = (report.lengths + report.assemble + report.transfer) / counts.all;
-  way.total += slowest(way.holders, ranks,
-                       [&](SubdomainId s) { return each_new * counts.made[s] + each * counts.triangles[s]; });
+  way.total += slowest(way.holders, ranks, [&](SubdomainId s) {
+    return each_new * counts.made[s] + each * counts.triangles[s] + report.divide * counts.divided[s];
+  });
   const Holders next =
       adapt::imbalance(loads, way.holders) > adapt::kEven ? way.place(loads, way.holders) : way.holders;
   IdVector<Rank, double> moving(ranks, 0.0);
@@ -202,6 +215,9 @@ void run(const Options& options) {
     session.adapt(lengths, means, {});
     const Counts counts = counts_of(session);
     const adapt::Loads loads = loads_of(counts);
+    for (Way& way : ways)  // what a subdomain is divided into is where it was
+      for (const SubdomainId s : ids_of(session.whole_of()))
+        if (to_index(s) >= way.holders.size()) way.holders.push_back(way.holders[session.whole_of()[s]]);
     for (Way& way : ways) advance(way, loads, counts, session.report());
     largest = std::max(largest, *std::ranges::max_element(counts.triangles) * options.ranks / counts.all);
     if (generation % 5 != 0) continue;

@@ -226,6 +226,7 @@ class AdaptiveObject {
   report["kept"] = r.kept;
   report["mended"] = r.mended;
   report["remade"] = r.remade;
+  report["divided"] = r.divided;
   report["moved"] = r.moved;
   report["scale"] = r.scale;
   report["imbalance"] = r.imbalance;
@@ -233,6 +234,7 @@ class AdaptiveObject {
   report["refine"] = r.refine;
   report["assemble"] = r.assemble;
   report["transfer"] = r.transfer;
+  report["divide"] = r.divide;
   report["balance"] = r.balance;
   report["seconds"] = r.seconds;
   return report;

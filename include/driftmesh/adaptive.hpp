@@ -54,6 +54,7 @@ struct AdaptReport {
   std::int32_t kept = 0;        ///< subdomains that are what they were, but for points on their borders
   std::int32_t mended = 0;      ///< subdomains of which only parts changed
   std::int32_t remade = 0;      ///< subdomains that were made anew
+  std::int32_t divided = 0;     ///< subdomains that were added, since lengths asked for too much of one
   std::int32_t moved = 0;       ///< subdomains that went to another rank
   double scale = 1;             ///< factor on all lengths, for most_triangles
   double imbalance = 1;         ///< time of the slowest rank over the mean, as forecast, for what the caller does next
@@ -62,6 +63,7 @@ struct AdaptReport {
   double refine = 0;    ///< making the subdomains
   double assemble = 0;  ///< putting them together
   double transfer = 0;  ///< fields, and what stayed
+  double divide = 0;    ///< cutting subdomains further and making them anew
   double balance = 0;   ///< moving subdomains between ranks
   double seconds = 0;   ///< all of it
 };
@@ -71,7 +73,8 @@ struct AdaptReport {
 /// bounds of mesh() with the new lengths, also as to what counts between corners and centroid. Outlines, markers and
 /// regions stay; so do whole subdomains, with all their points and triangles, where the mesh is as it should be.
 ///
-/// The domain is cut once, as by options.subdomains. options.min_angle, max_area and region_areas hold for all
+/// The domain is cut as by options.subdomains; where lengths come to ask for more than four times the mean of one
+/// subdomain, it is cut further. options.min_angle, max_area and region_areas hold for all
 /// generations; options.size and options.triangles for the first one alone. The same calls give the same meshes and
 /// fields, bit for bit, on any number of threads.
 ///

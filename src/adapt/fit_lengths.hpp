@@ -15,7 +15,10 @@ namespace driftmesh::adapt {
 struct Wanted {
   LengthsOfParts lengths;              ///< at the vertices of all present parts
   const SizeField* between = nullptr;  ///< sizes in the whole domain; null: lengths are linear on the present triangles
-  double scale = 1;                    ///< factor that made them fit, for AdaptiveOptions::most_triangles
+  /// Sizes in parts that are here, instead of all that, where a mesh is as it should be but for subdomains that are
+  /// made anew: interfaces keep what points they have. Empty: none. Each for one thread at a time.
+  IdVector<SubdomainId, const SizeField*> inside{};
+  double scale = 1;  ///< factor that made lengths fit, for AdaptiveOptions::most_triangles
 };
 
 /// The lengths that a caller asks for at points, as options want them; where ranks ask for different ones at a point

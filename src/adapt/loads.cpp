@@ -57,8 +57,8 @@ double bytes_of(const Generation& generation, SubdomainId s, const Fields& field
 
 }  // namespace
 
-Loads loads_of(const Generation& before, const Generation& after, const Fields& fields, const Spent& spent,
-               Ranks& ranks) {
+Loads loads_of(const Generation& before, const Generation& after, const IdVector<SubdomainId, SubdomainId>& whole_of,
+               const Fields& fields, const Spent& spent, Ranks& ranks) {
   ranks.agree([&] { require_sound(before, spent); });
   const std::vector<Told> told = told_by_all(before, spent, ranks);
   const bool by_parts = std::ranges::all_of(told, [](const Told& t) { return t.by_parts != 0; });
@@ -68,8 +68,8 @@ Loads loads_of(const Generation& before, const Generation& after, const Fields& 
   loads.work = of_all_parts(ranks, after, [&](SubdomainId s) { return triangles_of(after.parts[s]); });
   if (!by_parts) return loads;
   const IdVector<SubdomainId, double> costs = of_all_parts(ranks, after, [&](SubdomainId s) {  // seconds a triangle
-    const auto i = std::ranges::lower_bound(before.here, s) - before.here.begin();
-    return (*spent.on_parts)[static_cast<std::size_t>(i)] / triangles_of(before.parts[s]);
+    const auto i = std::ranges::lower_bound(before.here, whole_of[s]) - before.here.begin();
+    return (*spent.on_parts)[static_cast<std::size_t>(i)] / triangles_of(before.parts[whole_of[s]]);
   });
   double seconds = 0, triangles = 0;
   for (const SubdomainId s : ids_of(costs)) {

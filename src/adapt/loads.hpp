@@ -25,10 +25,12 @@ struct Loads {
   IdVector<Rank, double> speeds;  ///< in triangles a second; 0: unknown
 };
 
-/// Of the parts of `after`, which has the holders of `before`, on which the time was spent. If ranks have told of each
+/// Of the parts of `after`, each of which is, or was part of, the one of `before` that `whole_of` names, on the same
+/// rank. The time was spent on `before`. If ranks have told of each
 /// part, its triangles cost what they did; else all cost the same, and ranks are as fast as they were. Throws Error, on
 /// all ranks, for numbers of seconds that do not suit. Collective.
-[[nodiscard]] Loads loads_of(const Generation& before, const Generation& after, const Fields& fields,
+[[nodiscard]] Loads loads_of(const Generation& before, const Generation& after,
+                             const IdVector<SubdomainId, SubdomainId>& whole_of, const Fields& fields,
                              const Spent& spent, Ranks& ranks);
 
 /// The speeds of ranks, where those that are not known are the mean of the others.
@@ -38,6 +40,7 @@ struct Loads {
 [[nodiscard]] double imbalance(const Loads& loads, const IdVector<SubdomainId, Rank>& holders);
 
 /// Chooses ranks for the parts of this one, in the order of their numbers; empty: nothing moves. Collective.
-using Placing = std::function<std::vector<Rank>(const Loads& loads, const Generation& generation)>;
+using Placing = std::function<std::vector<Rank>(const Loads& loads, const Generation& generation,
+                                                const Decomposition& decomposition)>;
 
 }  // namespace driftmesh::adapt

@@ -34,15 +34,15 @@ Part part_of(const Part& whole, SubdomainMesh mesh, const Former& former) {
 }
 
 /// The parts of this rank, and for those that changed what they consist of.
-std::pair<Parts, std::map<SubdomainId, Former>> recast_parts(const Generation& present, const RenamedRoots& renamed,
+std::pair<Parts, std::map<SubdomainId, Former>> recast_parts(const Parts& present, const RenamedRoots& renamed,
                                                              const Decomposition& now,
                                                              const IdVector<SubdomainId, SubdomainId>& parent) {
-  IdVector<SubdomainId, int> children(present.parts.size(), 0);
+  IdVector<SubdomainId, int> children(present.size(), 0);
   for (const SubdomainId p : parent) ++children[p];
   Parts parts(now.size());
   std::map<SubdomainId, Former> formers;
   for (const SubdomainId s : ids_of(parts)) {
-    const Part& whole = present.parts[parent[s]];
+    const Part& whole = present[parent[s]];
     if (!whole.mesh) continue;
     if (children[parent[s]] == 1 && !has_chain(*whole.mesh, renamed)) {
       parts[s] = whole;
@@ -101,12 +101,17 @@ std::vector<T> reordered(const std::vector<T>& values, const std::vector<std::in
 
 }  // namespace
 
+Parts recast(const Parts& present, const RenamedRoots& renamed, const Decomposition& now,
+             const IdVector<SubdomainId, SubdomainId>& parent) {
+  return recast_parts(present, renamed, now, parent).first;
+}
+
 Holding recast(const Holding& present, const RenamedRoots& renamed, const Decomposition& now,
                const IdVector<SubdomainId, SubdomainId>& parent, const std::function<Generation(Parts)>& assemble,
                Ranks& ranks) {
   Parts parts;
   std::map<SubdomainId, Former> formers;
-  ranks.agree([&] { std::tie(parts, formers) = recast_parts(present.generation, renamed, now, parent); });
+  ranks.agree([&] { std::tie(parts, formers) = recast_parts(present.generation.parts, renamed, now, parent); });
   Holding next{assemble(std::move(parts)), {}, {}, {}};
   const Renumbering old = renumbering(present.generation, next.generation, parent, formers);
   for (const auto& [name, field] : present.fields) {

@@ -18,4 +18,8 @@ namespace driftmesh::adapt {
                              const IdVector<SubdomainId, SubdomainId>& parent,
                              const std::function<Generation(Parts)>& assemble, Ranks& ranks);
 
+/// The same for meshes alone, on each rank by itself.
+[[nodiscard]] Parts recast(const Parts& present, const RenamedRoots& renamed, const Decomposition& now,
+                           const IdVector<SubdomainId, SubdomainId>& parent);
+
 }  // namespace driftmesh::adapt

@@ -79,7 +79,9 @@ class Beginnings {
     const Decomposition::Root& root = decomposition_.roots[r];
     const SubdomainId seen = present_.is_here(root.left) ? root.left : root.right;
     std::vector<dyadic::Path>& points = points_[r];
-    if (wanted_.between != nullptr) {
+    if (!wanted_.inside.empty()) {
+      points = Side(part(seen), r).has();
+    } else if (wanted_.between != nullptr) {
       points = presplit_paths(decomposition_, r, bounds_);
       std::ranges::sort(points);
     } else {
@@ -98,7 +100,9 @@ class Beginnings {
 
   void begin(SubdomainId s) {
     Beginning& beginning = beginnings_[s];
-    if (wanted_.between == nullptr) {
+    if (!wanted_.inside.empty()) {
+      beginning.size = wanted_.inside[s];
+    } else if (wanted_.between == nullptr) {
       fields_[s] = std::make_unique<LinearLengths>(part(s).mesh, wanted_.lengths[s]);
       beginning.size = fields_[s].get();
     } else {

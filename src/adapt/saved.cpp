@@ -24,6 +24,7 @@ Bytes bytes_of(const SavedHead& head) {
   writer.value(layout_of_memory());
   writer.value(head.options);
   writer.value(head.generation);
+  writer.value(head.shares);
   writer.value(std::uint64_t{head.fields.size()});
   for (const auto& [name, field] : head.fields) {
     writer.text(name);
@@ -44,6 +45,7 @@ SavedHead head_from(const Bytes& bytes) {
     throw Error("it was saved by another build of driftmesh, or on another kind of machine");
   reader.value(head.options);
   reader.value(head.generation);
+  reader.value(head.shares);
   for (auto left = reader.value<std::uint64_t>(); left > 0; --left) {
     Field& field = head.fields[reader.text()];
     reader.value(field.place);

@@ -18,7 +18,8 @@ namespace driftmesh::adapt {
 
 /// What a file of a session has besides its parts (docs/file-formats.md).
 struct SavedHead {
-  RunPlan plan;  ///< without a size field
+  RunPlan plan;             ///< without a size field
+  std::int32_t shares = 0;  ///< see Dividing
   Pslg pslg;
   AdaptiveOptions options;
   std::int64_t generation = 0;

@@ -10,6 +10,7 @@
 #include "adapt/lineage.hpp"
 #include "adapt/of_all_parts.hpp"
 #include "adapt/parcel.hpp"
+#include "adapt/recast.hpp"
 #include "base/bytes.hpp"
 #include "base/formatted.hpp"
 #include "base/in_turns.hpp"
@@ -81,7 +82,8 @@ Session::Session(Start start, const AdaptiveOptions& options, std::function<void
   for (auto& [s, mesh] : start.parts)
     parts[s] =
         first_part(std::move(mesh), plan_.bounds, start.lengths.empty() ? Lengths() : std::move(start.lengths.at(s)));
-  present_ = assembled(std::move(parts), means.ranks);
+  shares_ = static_cast<std::int32_t>(plan_.decomposition.size());
+  present_ = assembled(plan_.decomposition, std::move(parts), means.ranks);
 }
 
 Session::Session(Saved saved, std::function<void(Mesh&)> finish, const Means& means)
@@ -93,7 +95,8 @@ Session::Session(Saved saved, std::function<void(Mesh&)> finish, const Means& me
   report_.generation = saved.head.generation;
   Parts parts(plan_.decomposition.size());
   for (const auto& [s, parcel] : saved.parcels) parts[s] = parcel.part;
-  present_ = assembled(std::move(parts), means.ranks);
+  shares_ = saved.head.shares;
+  present_ = assembled(plan_.decomposition, std::move(parts), means.ranks);
   fields_ = without_values(saved.head.fields, present_.piece);
   means.ranks.agree([&] {
     for (const auto& [s, parcel] : saved.parcels) set_values_on(present_, s, parcel.values, fields_);
@@ -104,6 +107,7 @@ void Session::save(const std::string& path, Bytes more, const Means& means) {
   require_same_call("save, to '" + path + "'", means.ranks);
   take_from_owners(fields_, present_.piece, means.ranks);
   SavedHead head{.plan = plan_,
+                 .shares = shares_,
                  .pslg = pslg_,
                  .options = options_,
                  .generation = report_.generation,
@@ -114,8 +118,8 @@ void Session::save(const std::string& path, Bytes more, const Means& means) {
       means.ranks);
 }
 
-Generation Session::assembled(Parts parts, Ranks& ranks) const {
-  Generation made = assemble(plan_.decomposition, pslg_, std::move(parts), ranks);
+Generation Session::assembled(const Decomposition& decomposition, Parts parts, Ranks& ranks) const {
+  Generation made = assemble(decomposition, pslg_, std::move(parts), ranks);
   ranks.agree([&] { finish_(made.piece.mesh); });
   return made;
 }
@@ -157,6 +161,29 @@ std::vector<double> Session::lengths_from_error(std::span<const double> indicato
   return adapt::lengths_from_error(present_, indicators, target, order, means.ranks);
 }
 
+IdVector<SubdomainId, Demand> Session::demands_of(const Wanted& wanted, std::int32_t threads, Ranks& ranks) const {
+  IdVector<SubdomainId, Demand> own(present_.parts.size());
+  ranks.agree([&] {
+    in_turns(present_.here.size(), to_index(threads), [&](std::size_t i) {
+      const SubdomainId s = present_.here[i];
+      const Part& part = present_.parts[s];
+      own[s] = demand_of(part.mesh->mesh, plan_.bounds, wanted.lengths[s], wanted.between, part.made_for.get());
+    });
+  });
+  return of_all_parts(ranks, present_, [&](SubdomainId s) { return own[s]; });
+}
+
+/// With the fields that the present generation has.
+Holding Session::holding(Generation next, std::int32_t threads, Ranks& ranks) {
+  take_from_owners(fields_, present_.piece, ranks);
+  Holding made{std::move(next), {}, {}, {}};
+  const Lineage lineage(present_, made.generation, threads, ranks);
+  made.stayed_points = lineage.stayed_points();
+  made.stayed_triangles = lineage.stayed_triangles();
+  made.fields = carried(fields_, lineage);
+  return made;
+}
+
 void Session::advance(const std::function<Wanted()>& want, const Means& means, const Hooks& hooks) {
   Ranks& ranks = means.ranks;
   const std::int32_t threads = means.threads;
@@ -165,15 +192,7 @@ void Session::advance(const std::function<Wanted()>& want, const Means& means, c
   Stopwatch stage;
   const Wanted wanted = want();
   report.scale = wanted.scale;
-  IdVector<SubdomainId, Demand> demands(present_.parts.size());
-  ranks.agree([&] {
-    in_turns(present_.here.size(), to_index(threads), [&](std::size_t i) {
-      const SubdomainId s = present_.here[i];
-      const Part& part = present_.parts[s];
-      demands[s] = demand_of(part.mesh->mesh, plan_.bounds, wanted.lengths[s], wanted.between, part.made_for.get());
-    });
-  });
-  demands = of_all_parts(ranks, present_, [&](SubdomainId s) { return demands[s]; });
+  const IdVector<SubdomainId, Demand> demands = demands_of(wanted, threads, ranks);
   const IdVector<SubdomainId, Fate> fates = of_all_parts(
       ranks, present_, [&](SubdomainId s) { return fate_of(present_.parts[s], demands[s], options_.coarsening); });
   for (const Fate fate : fates)
@@ -185,22 +204,40 @@ void Session::advance(const std::function<Wanted()>& want, const Means& means, c
   report.refine = stage.seconds();
 
   stage = {};
-  Generation next = assembled(std::move(parts), ranks);
+  const Dividing dividing{plan_, shares_, present_, wanted, threads, hooks};
+  std::optional<Divided> divided = divide_heavy(parts, dividing, ranks);
+  if (divided) parts = std::move(divided->parts);
+  report.divide = stage.seconds();
+
+  stage = {};
+  Generation next = assembled(divided ? divided->cut.with_separators : plan_.decomposition, std::move(parts), ranks);
   report.assemble = stage.seconds();
 
   stage = {};
-  take_from_owners(fields_, present_.piece, ranks);
-  const Lineage lineage(present_, next, threads, ranks);
-  std::vector<std::int32_t> points = lineage.stayed_points(), triangles = lineage.stayed_triangles();
-  Fields fields = carried(fields_, lineage);
+  Holding made = holding(std::move(next), threads, ranks);
   report.transfer = stage.seconds();
 
   stage = {};
-  Holding made = placed({std::move(next), std::move(fields), std::move(points), std::move(triangles)}, means, report);
+  Decomposition decomposition = plan_.decomposition;
+  IdVector<SubdomainId, SubdomainId> whole_of;
+  for (const SubdomainId s : ids_of(present_.parts)) whole_of.push_back(s);
+  if (divided) {
+    decomposition = std::move(divided->cut.divided);
+    whole_of = std::move(divided->cut.whole_of);
+    made = recast(
+        made, {}, decomposition, whole_of,
+        [&](Parts of_next) { return assembled(decomposition, std::move(of_next), ranks); }, ranks);
+  }
+  report.divided = static_cast<std::int32_t>(whole_of.size() - present_.parts.size());
+  report.assemble += stage.seconds();
+
+  stage = {};
+  made = placed(std::move(made), decomposition, whole_of, means, report);
   report.balance = stage.seconds();
 
   old_.reset();
   if (keeps_old_) old_ = std::move(present_.piece);
+  set_decomposition(std::move(decomposition), std::move(whole_of));
   present_ = std::move(made.generation);
   stayed_points_ = std::move(made.stayed_points);
   stayed_triangles_ = std::move(made.stayed_triangles);
@@ -220,12 +257,21 @@ const DistributedPiece& Session::old_piece() const {
   return *old_;
 }
 
+void Session::set_decomposition(Decomposition decomposition, IdVector<SubdomainId, SubdomainId> whole_of) {
+  plan_.decomposition = std::move(decomposition);
+  for (const SubdomainId s : ids_of(whole_of))
+    if (to_index(s) >= plan_.owners.size()) plan_.owners.push_back(plan_.owners[whole_of[s]]);
+  whole_of_ = std::move(whole_of);
+}
+
 /// On other ranks where that makes up for an imbalance.
-Holding Session::placed(Holding made, const Means& means, AdaptReport& report) const {
+Holding Session::placed(Holding made, const Decomposition& decomposition,
+                        const IdVector<SubdomainId, SubdomainId>& whole_of, const Means& means,
+                        AdaptReport& report) const {
   Ranks& ranks = means.ranks;
   if (ranks.alone() || !means.place) return made;
-  const Loads loads = loads_of(present_, made.generation, made.fields, spent_, ranks);
-  const std::vector<Rank> own = means.place(loads, made.generation);
+  const Loads loads = loads_of(present_, made.generation, whole_of, made.fields, spent_, ranks);
+  const std::vector<Rank> own = means.place(loads, made.generation, decomposition);
   const IdVector<SubdomainId, Rank> now = made.generation.holders;
   const IdVector<SubdomainId, Rank> holders = of_all_parts(ranks, made.generation, [&](SubdomainId s) {
     const auto i = std::ranges::lower_bound(made.generation.here, s) - made.generation.here.begin();
@@ -234,7 +280,7 @@ Holding Session::placed(Holding made, const Means& means, AdaptReport& report) c
   for (const SubdomainId s : ids_of(holders)) report.moved += holders[s] != now[s] ? 1 : 0;
   if (report.moved > 0)
     made = moved(
-        made, holders, [&](Parts parts) { return assembled(std::move(parts), ranks); }, ranks);
+        made, holders, [&](Parts parts) { return assembled(decomposition, std::move(parts), ranks); }, ranks);
   report.imbalance = imbalance(loads, holders);
   return made;
 }

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "adapt/demand.hpp"
+#include "adapt/divide.hpp"
 #include "adapt/fields.hpp"
 #include "adapt/fit_lengths.hpp"
 #include "adapt/generation.hpp"
@@ -51,6 +53,8 @@ class Session {
   [[nodiscard]] const DistributedPiece& piece() const { return present_.piece; }
   [[nodiscard]] const Pslg& pslg() const { return pslg_; }
   [[nodiscard]] const Decomposition& decomposition() const { return plan_.decomposition; }
+  /// Of each subdomain, the one before the last call of adapt() that it is, or was part of; empty before the first.
+  [[nodiscard]] const IdVector<SubdomainId, SubdomainId>& whole_of() const { return whole_of_; }
   [[nodiscard]] const AdaptiveOptions& options() const { return options_; }
   [[nodiscard]] const AdaptReport& report() const { return report_; }
   [[nodiscard]] const std::vector<std::int32_t>& stayed_points() const { return stayed_points_; }
@@ -85,11 +89,19 @@ class Session {
 
  private:
   void advance(const std::function<Wanted()>& want, const Means& means, const Hooks& hooks);
-  [[nodiscard]] Generation assembled(Parts parts, Ranks& ranks) const;
-  [[nodiscard]] Holding placed(Holding made, const Means& means, AdaptReport& report) const;
+  [[nodiscard]] IdVector<SubdomainId, Demand> demands_of(const Wanted& wanted, std::int32_t threads,
+                                                         Ranks& ranks) const;
+  [[nodiscard]] Holding holding(Generation next, std::int32_t threads, Ranks& ranks);
+  [[nodiscard]] Generation assembled(const Decomposition& decomposition, Parts parts, Ranks& ranks) const;
+  [[nodiscard]] Holding placed(Holding made, const Decomposition& decomposition,
+                               const IdVector<SubdomainId, SubdomainId>& whole_of, const Means& means,
+                               AdaptReport& report) const;
+  void set_decomposition(Decomposition decomposition, IdVector<SubdomainId, SubdomainId> whole_of);
   [[nodiscard]] Field& find_field(const std::string& name);
 
   RunPlan plan_;
+  std::int32_t shares_ = 0;  // subdomains at the beginning
+  IdVector<SubdomainId, SubdomainId> whole_of_;
   Pslg pslg_;
   AdaptiveOptions options_;
   std::function<void(Mesh&)> finish_;

@@ -78,6 +78,7 @@ Domain prepare_domain(const Triangulation& mesh, const DecomposeOptions& options
   const double compact = std::sqrt(area_of(mesh) / options.subdomains);  // the width of a compact subdomain
   Domain domain;
   domain.map = connected_walls(mesh, compact / 4, options.min_angle * std::numbers::pi / 180);
+  domain.map.whole_segments = options.whole_segments;
   domain.pieces = find_pieces(domain.map, options.bounds);
   if (samples.empty() && !SizeBounds(options.bounds).any()) scale_work(domain.pieces, forecast);
   domain.samples = share_out(std::move(samples), domain.map, domain.pieces);

@@ -22,6 +22,8 @@ struct DecomposeOptions {
   /// skew) times its fair share, at random.
   double skew = 0;
   std::uint64_t seed = 1;  ///< seed for that randomness
+  /// Whether separators end only at points of the domain, and on each other.
+  bool whole_segments = false;
 };
 
 inline constexpr std::int32_t kMaxSubdomains = 10'000'000;

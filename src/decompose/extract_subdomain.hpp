@@ -18,7 +18,9 @@ struct RootInterval {
   GlobalRootId root{};
   friend bool operator==(const RootInterval&, const RootInterval&) = default;
 };
-/// For each root that becomes a chain of roots, the intervals that cover it. Roots not in it keep their number.
+/// For each root that becomes a chain of roots, the intervals that cover it. Roots not in it keep their number. The
+/// roots of a shell can only be halved all at once, with names for the halves and for the circle between them (see
+/// same_segments.cpp): else the refinement of an acute corner may not end.
 using RenamedRoots = std::map<GlobalRootId, std::vector<RootInterval>>;
 
 struct ExtractedSubdomain {

@@ -51,7 +51,9 @@ class Sectors {
 };
 
 /// The number of equal parts into which places divide a wall.
-int parts_of(const PlanarMap::Wall& wall, double length, double spacing) {
+int parts_of(const PlanarMap& map, SideId side, double length, double spacing) {
+  const PlanarMap::Wall& wall = map.wall(side);
+  if (map.whole_segments && wall.kind == PlanarMap::Kind::kInput) return 1;
   const double parts = std::floor(length / spacing + 0.3);
   if (parts < 2) return 1;
   return wall.shell != kNone ? 2 : static_cast<int>(std::min(parts, 1e6));
@@ -160,7 +162,7 @@ void place_stations(const PlanarMap& map, double spacing, double angle, Outline&
     const double whole = std::sqrt(squared_distance(a, b));
     const double swept = swept_from(o, a, b);
     const Point forward{(b.x - a.x) / whole, (b.y - a.y) / whole};
-    const int parts = parts_of(map.wall(from.side), whole, spacing);
+    const int parts = parts_of(map, from.side, whole, spacing);
     Outline::Station corner;
     corner.at = a;
     corner.side = from.side;

@@ -40,6 +40,7 @@ class PlanarMap {
   IdVector<MapVertexId, VertexOrigin> origin;  ///< for each point, the index of an input point, shell end, or kNone
   IdVector<WallId, Wall> walls;
   IdVector<SideId, Side> sides;  ///< two for each wall
+  bool whole_segments = false;   ///< no separator may end inside an input segment
 
   static constexpr SideId twin(SideId h) { return SideId{to_int(h) ^ 1}; }
   /// Whether `h` has the direction of its wall.

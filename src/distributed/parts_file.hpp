@@ -23,7 +23,7 @@ struct PartsFormat {
   const char* what;      ///< "an adaptive mesh"
   const char* use;       ///< what such a file is for: "load it with ..."
 };
-inline constexpr PartsFormat kAdaptiveMeshFile{"session", 1, "an adaptive mesh", "load it with AdaptiveMesh::load"};
+inline constexpr PartsFormat kAdaptiveMeshFile{"session", 2, "an adaptive mesh", "load it with AdaptiveMesh::load"};
 inline constexpr PartsFormat kCheckpointFile{"run", 1, "a checkpoint", "go on with driftmesh mesh --resume"};
 
 /// Writes one HDF5 file: what rank 0 has in `heads`, by the names of their arrays, and a part for each of `count`

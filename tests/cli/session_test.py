@@ -82,11 +82,11 @@ class Sessions(program.Cli):
         for name in ("damaged.h5", "cut.h5"):
             for command in (("check", name), ("convert", name, "a.vtu")):
                 self.assertIn(name, self.refuse(*command, code=2 if command[0] == "check" else 1).stderr)
-        one = (1).to_bytes(8, "little")
+        extents, version = 2 * (1).to_bytes(8, "little"), (2).to_bytes(8, "little")
         later = bytearray(whole)
-        later[whole.index(3 * one, whole.index(b"version")) + 16] = 9  # behind the extent of the attribute
+        later[whole.index(extents + version, whole.index(b"version")) + len(extents)] = 9
         self.write("later.h5", bytes(later))
-        self.refuse("check", "later.h5", code=2, says=["later.h5", "an adaptive mesh of version 9", "reads version 1"])
+        self.refuse("check", "later.h5", code=2, says=["later.h5", "an adaptive mesh of version 9", "reads version 2"])
 
 
 if __name__ == "__main__":

@@ -53,7 +53,7 @@ struct Broken {
 };
 
 /// Breaks about every `every`th root of the decomposition at points that its meshes have there, some of the new roots
-/// in the other direction.
+/// in the other direction. Pieces of shells could only be broken all at once (see same_segments.cpp), and are not.
 inline Broken broken(const Decomposition& d, const SplitPoints& points, std::uint64_t every, Random& random) {
   Broken all{d, {}};
   Decomposition& now = all.decomposition;
@@ -62,7 +62,7 @@ inline Broken broken(const Decomposition& d, const SplitPoints& points, std::uin
     GlobalPointId a, b;
   };
   for (const auto& [name, splits] : points) {
-    if (splits.empty() || random() % every != 0) continue;
+    if (d.roots[name].shell != kNone || splits.empty() || random() % every != 0) continue;
     std::vector<Piece> pieces, whole{{dyadic::kWhole, d.roots[name].a, d.roots[name].b}};
     while (!whole.empty()) {
       const Piece piece = whole.back();
@@ -82,7 +82,7 @@ inline Broken broken(const Decomposition& d, const SplitPoints& points, std::uin
       Decomposition::Root root = d.roots[name];
       root.a = pieces[k].a;
       root.b = pieces[k].b;
-      if (root.a > root.b && root.shell == kNone) {  // the rule of check_decomposition
+      if (root.a > root.b) {  // the rule of check_decomposition
         std::swap(root.a, root.b);
         std::swap(root.left, root.right);
         std::swap(root.left_region, root.right_region);

@@ -44,8 +44,9 @@ struct DistributedAdaptiveMesh::Impl {
   }
 
   [[nodiscard]] adapt::Placing placing(Ranks& ranks) const {
-    return [this, &ranks](const adapt::Loads& loads, const adapt::Generation& generation) {
-      return place_parts(communicator, ranks, core.session().decomposition(), loads, generation);
+    return [this, &ranks](const adapt::Loads& loads, const adapt::Generation& generation,
+                          const Decomposition& decomposition) {
+      return place_parts(communicator, ranks, decomposition, loads, generation);
     };
   }
 

@@ -1,0 +1,132 @@
+#include "adapt/divide.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "adapt/linear_lengths.hpp"
+#include "adapt/of_all_parts.hpp"
+#include "adapt/recast.hpp"
+#include "base/bytes.hpp"
+#include "base/in_turns.hpp"
+#include "decompose/further_cut.hpp"
+
+namespace driftmesh::adapt {
+namespace {
+
+/// Those that are to be divided, each with the number of parts that it should have.
+std::vector<std::pair<SubdomainId, std::int32_t>> heavy_of(const IdVector<SubdomainId, double>& asked,
+                                                           std::int32_t shares) {
+  constexpr double kMost = 64;
+  double all = 0;
+  for (const double triangles : asked) all += triangles;
+  const double mean = std::max(all / shares, kSmall / kHeavy);
+  std::vector<std::pair<SubdomainId, std::int32_t>> heavy;
+  for (const SubdomainId s : ids_of(asked))
+    if (asked[s] > kHeavy * mean)
+      heavy.emplace_back(s, static_cast<std::int32_t>(std::lround(std::min(asked[s] / mean, kMost))));
+  return heavy;
+}
+
+/// The sizes by which the present mesh was made.
+class Sizes {
+ public:
+  explicit Sizes(const Dividing& how)
+      : linear_(how.before.parts.size()), all_(how.before.parts.size(), how.wanted.between) {
+    for (const SubdomainId s : how.before.here) {
+      if (how.wanted.between != nullptr) continue;
+      linear_[s] = std::make_unique<LinearLengths>(how.before.parts[s].mesh->mesh, how.wanted.lengths[s]);
+      all_[s] = linear_[s].get();
+    }
+  }
+  [[nodiscard]] const IdVector<SubdomainId, const SizeField*>& all() const { return all_; }
+
+ private:
+  IdVector<SubdomainId, std::unique_ptr<LinearLengths>> linear_;
+  IdVector<SubdomainId, const SizeField*> all_;
+};
+
+/// The cuts of those that can be divided, ascending, on all ranks.
+std::vector<FurtherCut> cuts_of(const Generation& present, const Dividing& how, const Sizes& sizes, Ranks& ranks) {
+  const auto asked = of_all_parts(ranks, present, [&](SubdomainId s) { return present.parts[s].asked; });
+  std::vector<std::pair<SubdomainId, std::int32_t>> heavy = heavy_of(asked, how.shares);
+  if (heavy.empty()) return {};
+  std::erase_if(heavy, [&](const auto& one) { return !present.is_here(one.first); });
+  std::vector<std::optional<FurtherCut>> found(heavy.size());
+  ranks.agree([&] {
+    in_turns(heavy.size(), to_index(how.threads), [&](std::size_t i) {
+      const auto& [s, parts] = heavy[i];
+      const Part& part = present.parts[s];
+      QualityBounds bounds = how.plan.bounds;
+      bounds.size = sizes.all()[s];
+      found[i] = cut_further(how.plan.decomposition, s, *part.mesh, bounds, part.asked, parts);
+    });
+  });
+  ByteWriter own;
+  for (const auto& cut : found)
+    if (cut) own.raw(to_bytes(*cut));
+  std::vector<FurtherCut> cuts;
+  for (const Bytes& bytes : ranks.bytes_of_all(own.take()))
+    for (ByteReader reader(bytes); !reader.at_end();) cuts.push_back(further_cut_from(reader));
+  std::ranges::sort(cuts, {}, &FurtherCut::whole);
+  return cuts;
+}
+
+/// What pieces that stay, or are made anew, are to be as before.
+Wanted wanted_of(const Generation& present, const Dividing& how, const Sizes& sizes, Ranks& ranks) {
+  Wanted wanted{.lengths = LengthsOfParts(present.parts.size()), .between = how.wanted.between, .inside = sizes.all()};
+  ranks.agree([&] {
+    in_turns(present.here.size(), to_index(how.threads), [&](std::size_t i) {
+      const SubdomainId s = present.here[i];
+      const SubdomainMesh& part = *present.parts[s].mesh;
+      if (&part == how.before.parts[s].mesh.get()) {
+        wanted.lengths[s] = how.wanted.lengths[s];
+        return;
+      }
+      for (const VertexId v : ids_of(part.mesh.points))
+        wanted.lengths[s].push_back(part.mesh.origin[v] == kDeleted ? kNoBound
+                                                                    : sizes.all()[s]->edge_length(part.mesh.points[v]));
+    });
+  });
+  return wanted;
+}
+
+/// Makes those that are cut anew, with the separators inside.
+Parts remade(const Generation& present, const CutFurther& cut, const std::vector<FurtherCut>& cuts, const Dividing& how,
+             const Sizes& sizes, Ranks& ranks) {
+  const Wanted wanted = wanted_of(present, how, sizes, ranks);
+  const auto asked = of_all_parts(ranks, present, [&](SubdomainId s) { return present.parts[s].asked; });
+  IdVector<SubdomainId, Fate> fates(present.parts.size(), Fate::kKeep);
+  IdVector<SubdomainId, Demand> demands(present.parts.size());
+  for (const FurtherCut& one : cuts) {
+    fates[one.whole] = Fate::kRemake;
+    demands[one.whole] = {.triangles = asked[one.whole], .too_large = true, .changes = asked[one.whole]};
+  }
+  RunPlan plan = how.plan;
+  plan.decomposition = cut.with_separators;
+  Hooks hooks = how.hooks;
+  hooks.progress = {};
+  return regenerate(plan, present, wanted, demands, fates, how.threads, ranks, hooks);
+}
+
+}  // namespace
+
+std::optional<Divided> divide_heavy(const Parts& parts, const Dividing& how, Ranks& ranks) {
+  Generation present;  // without a piece
+  present.parts = parts;
+  present.here = how.before.here;
+  present.holders = how.before.holders;
+  const Sizes sizes(how);
+  const std::vector<FurtherCut> cuts = cuts_of(present, how, sizes, ranks);
+  if (cuts.empty()) return {};
+  CutFurther cut = with_cuts(how.plan.decomposition, cuts);
+  IdVector<SubdomainId, SubdomainId> same;
+  for (const SubdomainId s : ids_of(parts)) same.push_back(s);
+  ranks.agree([&] { present.parts = recast(parts, cut.renamed, cut.broken, same); });
+  Parts made = remade(present, cut, cuts, how, sizes, ranks);
+  return Divided{std::move(made), std::move(cut)};
+}
+
+}  // namespace driftmesh::adapt
