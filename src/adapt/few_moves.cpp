@@ -34,6 +34,12 @@ class Room {
     return slowest;
   }
   void leave(Rank r) { left_[r] = true; }
+  [[nodiscard]] Rank emptiest() const {
+    Rank emptiest{0};
+    for (const Rank r : ids_of(work_))
+      if (excess(r) / most_[r] < excess(emptiest) / most_[emptiest]) emptiest = r;
+    return emptiest;
+  }
   /// What a rank has too much; <= 0: nothing.
   [[nodiscard]] double excess(Rank r) const { return work_[r] - most_[r]; }
   [[nodiscard]] bool has_room(Rank r, SubdomainId s) const { return work_[r] + loads_.work[s] <= most_[r]; }
@@ -78,7 +84,7 @@ std::pair<int, double> suits(double work, double excess) {
   return {work <= kNotMuchMore * excess ? 0 : 2, work};
 }
 
-/// The best move of one part to the rank of a neighbor, or else of any part to a rank beside.
+/// The best move of one part to the rank of a neighbor; or else of any part to a rank beside, or to the emptiest one.
 Move best_move(const Room& room, Rank from, const std::vector<std::pair<SubdomainId, SubdomainId>>& neighbors) {
   Move best;
   const double excess = room.excess(from);
@@ -94,6 +100,9 @@ Move best_move(const Room& room, Rank from, const std::vector<std::pair<Subdomai
   if (best.part != kNoSubdomain) return best;
   for (const Rank to : ranks_beside(room, from, neighbors))
     for (const SubdomainId part : ids_of(room.holders())) consider(part, to);
+  if (best.part != kNoSubdomain) return best;
+  const Rank emptiest = room.emptiest();
+  for (const SubdomainId part : ids_of(room.holders())) consider(part, emptiest);
   return best;
 }
 
