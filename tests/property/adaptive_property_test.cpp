@@ -238,7 +238,8 @@ TEST_CASE("conserving transfer keeps integrals, bounds and constants") {
         seed == 1 ? testing::varied_domain() : oracles::make_random_pslg(seed, oracles::make_random_shape(seed)).input;
     AdaptiveMesh mesh(input, {.triangles = 800, .threads = 1 + seed % 2});
     const Box box = box_of(mesh.mesh());
-    const Front front(random, box);
+    Front front(random, box);
+    if (seed % 2 == 0) front.sharpen();
     const std::size_t points = mesh.mesh().points.size(), triangles = mesh.mesh().triangles.size();
     const auto noise = [&](std::size_t count) {
       std::vector<double> values(count);
