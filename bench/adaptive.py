@@ -182,6 +182,7 @@ def follow_on_ranks(communicator, shortest, subdomains, generations):
     for generation in range(1, generations + 1):
         mesh.adapt(ring(mesh.piece.mesh.points, shortest, generation, ASIDE))
         after = load_by_subdomain(communicator, mesh)
+        before = after | before  # what was added by dividing counts as if it had been where it is
         stay, now = (sums(loads, communicator.size) for loads in
                      ([(before[s][0], load) for s, (_, load) in after.items()], after.values()))
         mean = sum(now) / communicator.size
