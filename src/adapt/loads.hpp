@@ -25,10 +25,10 @@ struct Loads {
   IdVector<Rank, double> speeds;  ///< in triangles a second; 0: unknown
 };
 
-/// Of the parts of `after`, each of which is, or was part of, the one of `before` that `whole_of` names, on the same
-/// rank. The time was spent on `before`. If ranks have told of each
-/// part, its triangles cost what they did; else all cost the same, and ranks are as fast as they were. Throws Error, on
-/// all ranks, for numbers of seconds that do not suit. Collective.
+/// Loads of the parts of `after`, each of which is, or was part of, the one of `before` that `whole_of` names, on the
+/// same rank. The time was spent on `before`. If ranks have told of each part, its triangles cost what they did; else
+/// all cost the same, and ranks are as fast as they were. Throws Error, on all ranks, for numbers of seconds that do
+/// not suit. Collective.
 [[nodiscard]] Loads loads_of(const Generation& before, const Generation& after,
                              const IdVector<SubdomainId, SubdomainId>& whole_of, const Fields& fields,
                              const Spent& spent, Ranks& ranks);

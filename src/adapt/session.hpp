@@ -53,7 +53,7 @@ class Session {
   [[nodiscard]] const DistributedPiece& piece() const { return present_.piece; }
   [[nodiscard]] const Pslg& pslg() const { return pslg_; }
   [[nodiscard]] const Decomposition& decomposition() const { return plan_.decomposition; }
-  /// Of each subdomain, the one before the last call of adapt() that it is, or was part of; empty before the first.
+  /// Which one each subdomain was, or was part of, before the last call of adapt(); empty before the first.
   [[nodiscard]] const IdVector<SubdomainId, SubdomainId>& whole_of() const { return whole_of_; }
   [[nodiscard]] const AdaptiveOptions& options() const { return options_; }
   [[nodiscard]] const AdaptReport& report() const { return report_; }

@@ -29,7 +29,7 @@ void visit_intervals(dyadic::Path interval, const IsBroken& is_broken, const aut
 class Alone {
  public:
   struct Piece {
-    std::size_t root;  ///< of the subdomain's
+    std::size_t root;  ///< counts those of the subdomain
     dyadic::Path path;
   };
 
@@ -47,7 +47,7 @@ class Alone {
 
   [[nodiscard]] Triangulation mesh() const { return subdomain_triangulation(domain_, SubdomainId{0}).mesh; }
   [[nodiscard]] const Decomposition& domain() const { return domain_; }
-  /// Of each root of the domain.
+  /// What each root of the domain is.
   [[nodiscard]] const IdVector<GlobalRootId, Piece>& pieces() const { return pieces_; }
   [[nodiscard]] const FurtherCut::End& end(GlobalPointId v) const { return ends_[v]; }
   [[nodiscard]] GlobalPointId local(GlobalPointId known) const {
@@ -405,7 +405,7 @@ class Application {
   Decomposition broken_, whole_, divided_;
   RenamedRoots renamed_;
   IdVector<SubdomainId, SubdomainId> whole_of_;
-  std::map<SubdomainId, std::vector<SubdomainId>> numbers_;  // of the parts of each that is divided
+  std::map<SubdomainId, std::vector<SubdomainId>> numbers_;  // those of the parts, for each that is divided
   std::map<SubdomainId, const FurtherCut*> cut_of_;
   std::vector<std::vector<GlobalPointId>> points_of_;  // the ends of each cut
   std::map<GlobalRootId, std::map<dyadic::Path, GlobalPointId>> breaks_;

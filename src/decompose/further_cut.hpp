@@ -30,7 +30,7 @@ struct FurtherCut {
     std::int32_t left = kNone, right = kNone;
   };
   struct Separator {
-    std::int32_t a = 0, b = 0;         ///< of `ends`
+    std::int32_t a = 0, b = 0;         ///< they count `ends`
     std::int32_t left = 0, right = 0;  ///< parts on its sides
     std::uint16_t left_region = 0, right_region = 0;
   };
@@ -39,7 +39,7 @@ struct FurtherCut {
   std::vector<Decomposition::Subdomain> parts;
   std::vector<End> ends;  ///< with a point on a root also those of the intervals that contain it
   std::vector<Separator> separators;
-  std::vector<std::vector<Interval>> roots;  ///< of each root of the subdomain, in its direction
+  std::vector<std::vector<Interval>> roots;  ///< for each root of the subdomain, in its direction
   std::vector<std::int32_t> inner_points;    ///< the part of each point inside; kNone: a separator ends there
 };
 
@@ -59,7 +59,7 @@ struct CutFurther {
   Decomposition with_separators;  ///< and there are separators inside the subdomains that are to be divided
   Decomposition divided;          ///< and these are; the first part keeps the number of the whole
   RenamedRoots renamed;
-  IdVector<SubdomainId, SubdomainId> whole_of;  ///< of each subdomain, which it was, or was part of
+  IdVector<SubdomainId, SubdomainId> whole_of;  ///< which one each subdomain was, or was part of
 };
 
 /// `cuts`: of different subdomains, ascending.

@@ -52,7 +52,7 @@ Triangulation prepared(const Pslg& pslg) {
   return mesh;
 }
 
-/// Of two cuts of neighbors, which travel as bytes.
+/// The cuts of a subdomain and a neighbor, which travel as bytes.
 std::vector<FurtherCut> cuts_of(const Decomposition& d, const testing::RefinedTogether& refined, SubdomainId s,
                                 const QualityBounds& bounds, std::int32_t parts) {
   std::vector<SubdomainId> both{s};
