@@ -205,7 +205,8 @@ def on_ranks(options):
     table = Table("adaptive-ranks", f"The load of a solver on ranks, {options.generations} generations",
                   ["ranks", "shortest", "triangles", "subdomains", "fences with moves", "if nothing moved", "largest over mean", "moved", "above", "moved over above"],
                   f"Around {ASIDE}. The solver takes the same time for each triangle. Largest load of a rank over the mean at the worst fence, as it is and as it would be if what "
-                  "that fence moved had stayed. Moved: triangles at all fences together; above: sums over ranks of the load beyond 1.05 of the mean before that.")
+                  "that fence moved had stayed. Moved: triangles at all fences together; above: sums over ranks of the load beyond 1.05 of the mean before that. "
+                  "What dividing added counts as having been where it is, so that its moves are not seen.")
     lengths = options.length or [0.002, 0.001]
     for ranks in options.ranks:
         said = subprocess.run(["mpirun", "--oversubscribe", "-n", str(ranks), sys.executable, __file__, "--worker", "--generations",

@@ -73,10 +73,10 @@ struct AdaptReport {
 /// bounds of mesh() with the new lengths, also as to what counts between corners and centroid. Outlines, markers and
 /// regions stay; so do whole subdomains, with all their points and triangles, where the mesh is as it should be.
 ///
-/// The domain is cut as by options.subdomains; where lengths come to ask for more than four times the mean of one
-/// subdomain, it is cut further. options.min_angle, max_area and region_areas hold for all
-/// generations; options.size and options.triangles for the first one alone. The same calls give the same meshes and
-/// fields, bit for bit, on any number of threads.
+/// The domain is cut as by options.subdomains; a subdomain that lengths come to ask for more than four times the mean
+/// of is cut further. options.min_angle, max_area and region_areas hold for all generations; options.size and
+/// options.triangles for the first one alone. The same calls give the same meshes and fields, bit for bit, on any
+/// number of threads.
 ///
 /// An object is used by one thread at a time. What throws leaves it as it was.
 ///

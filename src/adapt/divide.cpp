@@ -49,10 +49,8 @@ class Sizes {
 };
 
 /// The cuts of those that can be divided, ascending, on all ranks.
-std::vector<FurtherCut> cuts_of(const Generation& present, const Dividing& how, const Sizes& sizes, Ranks& ranks) {
-  const auto asked = of_all_parts(ranks, present, [&](SubdomainId s) { return present.parts[s].asked; });
-  std::vector<std::pair<SubdomainId, std::int32_t>> heavy = heavy_of(asked, how.shares);
-  if (heavy.empty()) return {};
+std::vector<FurtherCut> cuts_of(const Generation& present, std::vector<std::pair<SubdomainId, std::int32_t>> heavy,
+                                const Dividing& how, const Sizes& sizes, Ranks& ranks) {
   std::erase_if(heavy, [&](const auto& one) { return !present.is_here(one.first); });
   std::vector<std::optional<FurtherCut>> found(heavy.size());
   ranks.agree([&] {
@@ -74,7 +72,7 @@ std::vector<FurtherCut> cuts_of(const Generation& present, const Dividing& how, 
   return cuts;
 }
 
-/// What pieces that stay, or are made anew, are to be as before.
+/// What is asked of parts once more, at the vertices that they have now.
 Wanted wanted_of(const Generation& present, const Dividing& how, const Sizes& sizes, Ranks& ranks) {
   Wanted wanted{.lengths = LengthsOfParts(present.parts.size()), .between = how.wanted.between, .inside = sizes.all()};
   ranks.agree([&] {
@@ -94,10 +92,9 @@ Wanted wanted_of(const Generation& present, const Dividing& how, const Sizes& si
 }
 
 /// Makes those that are cut anew, with the separators inside.
-Parts remade(const Generation& present, const CutFurther& cut, const std::vector<FurtherCut>& cuts, const Dividing& how,
-             const Sizes& sizes, Ranks& ranks) {
+Parts remade(const Generation& present, const IdVector<SubdomainId, double>& asked, const CutFurther& cut,
+             const std::vector<FurtherCut>& cuts, const Dividing& how, const Sizes& sizes, Ranks& ranks) {
   const Wanted wanted = wanted_of(present, how, sizes, ranks);
-  const auto asked = of_all_parts(ranks, present, [&](SubdomainId s) { return present.parts[s].asked; });
   IdVector<SubdomainId, Fate> fates(present.parts.size(), Fate::kKeep);
   IdVector<SubdomainId, Demand> demands(present.parts.size());
   for (const FurtherCut& one : cuts) {
@@ -114,18 +111,20 @@ Parts remade(const Generation& present, const CutFurther& cut, const std::vector
 }  // namespace
 
 std::optional<Divided> divide_heavy(const Parts& parts, const Dividing& how, Ranks& ranks) {
+  const auto asked = of_all_parts(ranks, how.before, [&](SubdomainId s) { return parts[s].asked; });
+  const auto heavy = heavy_of(asked, how.shares);
+  if (heavy.empty()) return {};
   Generation present;  // without a piece
   present.parts = parts;
   present.here = how.before.here;
   present.holders = how.before.holders;
   const Sizes sizes(how);
-  const std::vector<FurtherCut> cuts = cuts_of(present, how, sizes, ranks);
+  const std::vector<FurtherCut> cuts = cuts_of(present, heavy, how, sizes, ranks);
   if (cuts.empty()) return {};
   CutFurther cut = with_cuts(how.plan.decomposition, cuts);
-  IdVector<SubdomainId, SubdomainId> same;
-  for (const SubdomainId s : ids_of(parts)) same.push_back(s);
-  ranks.agree([&] { present.parts = recast(parts, cut.renamed, cut.broken, same); });
-  Parts made = remade(present, cut, cuts, how, sizes, ranks);
+  const auto same = ids_of(parts);
+  ranks.agree([&] { present.parts = recast(parts, cut.renamed, cut.broken, {same.begin(), same.end()}); });
+  Parts made = remade(present, asked, cut, cuts, how, sizes, ranks);
   return Divided{std::move(made), std::move(cut)};
 }
 

@@ -6,7 +6,7 @@
 #include "adapt/fit_lengths.hpp"
 #include "adapt/generation.hpp"
 #include "adapt/regenerate.hpp"
-#include "decompose/further_cut.hpp"
+#include "decompose/with_cuts.hpp"
 #include "distributed/ranks.hpp"
 #include "driftmesh/ids.hpp"
 #include "runtime/run_plan.hpp"

@@ -36,15 +36,15 @@ Part part_of(const Part& whole, SubdomainMesh mesh, const Former& former) {
 /// The parts of this rank, and for those that changed what they consist of.
 std::pair<Parts, std::map<SubdomainId, Former>> recast_parts(const Parts& present, const RenamedRoots& renamed,
                                                              const Decomposition& now,
-                                                             const IdVector<SubdomainId, SubdomainId>& parent) {
+                                                             const IdVector<SubdomainId, SubdomainId>& whole_of) {
   IdVector<SubdomainId, int> children(present.size(), 0);
-  for (const SubdomainId p : parent) ++children[p];
+  for (const SubdomainId p : whole_of) ++children[p];
   Parts parts(now.size());
   std::map<SubdomainId, Former> formers;
   for (const SubdomainId s : ids_of(parts)) {
-    const Part& whole = present[parent[s]];
+    const Part& whole = present[whole_of[s]];
     if (!whole.mesh) continue;
-    if (children[parent[s]] == 1 && !has_chain(*whole.mesh, renamed)) {
+    if (children[whole_of[s]] == 1 && !has_chain(*whole.mesh, renamed)) {
       parts[s] = whole;
       continue;
     }
@@ -61,12 +61,12 @@ struct Renumbering {
 };
 
 Renumbering renumbering(const Generation& before, const Generation& after,
-                        const IdVector<SubdomainId, SubdomainId>& parent,
+                        const IdVector<SubdomainId, SubdomainId>& whole_of,
                         const std::map<SubdomainId, Former>& formers) {
   Renumbering old{std::vector<std::int32_t>(after.piece.mesh.points.size(), -1), {}};
   old.triangles.reserve(after.piece.mesh.triangles.size());
   for (const SubdomainId s : after.here) {
-    const SubdomainId p = parent[s];
+    const SubdomainId p = whole_of[s];
     const auto former = formers.find(s);
     const bool kept = former == formers.end();
     for (const VertexId v : ids_of(after.places[s]))
@@ -102,18 +102,18 @@ std::vector<T> reordered(const std::vector<T>& values, const std::vector<std::in
 }  // namespace
 
 Parts recast(const Parts& present, const RenamedRoots& renamed, const Decomposition& now,
-             const IdVector<SubdomainId, SubdomainId>& parent) {
-  return recast_parts(present, renamed, now, parent).first;
+             const IdVector<SubdomainId, SubdomainId>& whole_of) {
+  return recast_parts(present, renamed, now, whole_of).first;
 }
 
 Holding recast(const Holding& present, const RenamedRoots& renamed, const Decomposition& now,
-               const IdVector<SubdomainId, SubdomainId>& parent, const std::function<Generation(Parts)>& assemble,
+               const IdVector<SubdomainId, SubdomainId>& whole_of, const std::function<Generation(Parts)>& assemble,
                Ranks& ranks) {
   Parts parts;
   std::map<SubdomainId, Former> formers;
-  ranks.agree([&] { std::tie(parts, formers) = recast_parts(present.generation.parts, renamed, now, parent); });
+  ranks.agree([&] { std::tie(parts, formers) = recast_parts(present.generation.parts, renamed, now, whole_of); });
   Holding next{assemble(std::move(parts)), {}, {}, {}};
-  const Renumbering old = renumbering(present.generation, next.generation, parent, formers);
+  const Renumbering old = renumbering(present.generation, next.generation, whole_of, formers);
   for (const auto& [name, field] : present.fields) {
     const bool at_points = field.place == FieldPlace::kPoints;
     const std::size_t each = (field.place == FieldPlace::kCorners ? 3 : 1) * field.components;

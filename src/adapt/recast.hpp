@@ -10,16 +10,16 @@
 
 namespace driftmesh::adapt {
 
-/// The same mesh and fields under a changed decomposition: nothing moves, numbers change. `parent`: for each subdomain
-/// of `now` the present one that it is, or is a part of; it stays on the rank of that one. A part that is not divided,
-/// and none of whose roots became a chain, keeps its mesh. `assemble`: as adapt::assemble with `now`, and with what the
+/// The same mesh and fields under a changed decomposition: nothing moves, numbers change. `whole_of`: which present
+/// subdomain each one of `now` is, or is a part of; it stays on the rank of that one. A part that is not divided, and
+/// none of whose roots became a chain, keeps its mesh. `assemble`: as adapt::assemble with `now`, and with what the
 /// caller knows. Throws Error, on all ranks, if `now` does not continue the present decomposition. Collective.
 [[nodiscard]] Holding recast(const Holding& present, const RenamedRoots& renamed, const Decomposition& now,
-                             const IdVector<SubdomainId, SubdomainId>& parent,
+                             const IdVector<SubdomainId, SubdomainId>& whole_of,
                              const std::function<Generation(Parts)>& assemble, Ranks& ranks);
 
 /// The same for meshes alone, on each rank by itself.
 [[nodiscard]] Parts recast(const Parts& present, const RenamedRoots& renamed, const Decomposition& now,
-                           const IdVector<SubdomainId, SubdomainId>& parent);
+                           const IdVector<SubdomainId, SubdomainId>& whole_of);
 
 }  // namespace driftmesh::adapt

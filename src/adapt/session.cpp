@@ -218,11 +218,10 @@ void Session::advance(const std::function<Wanted()>& want, const Means& means, c
   report.transfer = stage.seconds();
 
   stage = {};
-  Decomposition decomposition = plan_.decomposition;
-  IdVector<SubdomainId, SubdomainId> whole_of;
-  for (const SubdomainId s : ids_of(present_.parts)) whole_of.push_back(s);
+  const Decomposition& decomposition = divided ? divided->cut.divided : plan_.decomposition;
+  const auto same = ids_of(present_.parts);
+  IdVector<SubdomainId, SubdomainId> whole_of(same.begin(), same.end());
   if (divided) {
-    decomposition = std::move(divided->cut.divided);
     whole_of = std::move(divided->cut.whole_of);
     made = recast(
         made, {}, decomposition, whole_of,
@@ -237,7 +236,8 @@ void Session::advance(const std::function<Wanted()>& want, const Means& means, c
 
   old_.reset();
   if (keeps_old_) old_ = std::move(present_.piece);
-  set_decomposition(std::move(decomposition), std::move(whole_of));
+  if (divided) set_decomposition(std::move(divided->cut.divided), whole_of);
+  whole_of_ = std::move(whole_of);
   present_ = std::move(made.generation);
   stayed_points_ = std::move(made.stayed_points);
   stayed_triangles_ = std::move(made.stayed_triangles);
@@ -257,11 +257,10 @@ const DistributedPiece& Session::old_piece() const {
   return *old_;
 }
 
-void Session::set_decomposition(Decomposition decomposition, IdVector<SubdomainId, SubdomainId> whole_of) {
+void Session::set_decomposition(Decomposition decomposition, const IdVector<SubdomainId, SubdomainId>& whole_of) {
   plan_.decomposition = std::move(decomposition);
   for (const SubdomainId s : ids_of(whole_of))
     if (to_index(s) >= plan_.owners.size()) plan_.owners.push_back(plan_.owners[whole_of[s]]);
-  whole_of_ = std::move(whole_of);
 }
 
 /// On other ranks where that makes up for an imbalance.

@@ -96,7 +96,7 @@ class Session {
   [[nodiscard]] Holding placed(Holding made, const Decomposition& decomposition,
                                const IdVector<SubdomainId, SubdomainId>& whole_of, const Means& means,
                                AdaptReport& report) const;
-  void set_decomposition(Decomposition decomposition, IdVector<SubdomainId, SubdomainId> whole_of);
+  void set_decomposition(Decomposition decomposition, const IdVector<SubdomainId, SubdomainId>& whole_of);
   [[nodiscard]] Field& find_field(const std::string& name);
 
   RunPlan plan_;

@@ -24,6 +24,17 @@ void list_roots(Decomposition& d) {
   each_side([&](SubdomainId s, GlobalRootId r) { d.root_list[to_index(end[s]++)] = r; });
 }
 
+void list_inner_points(Decomposition& d, std::vector<std::pair<SubdomainId, GlobalPointId>> inner) {
+  std::ranges::sort(inner);
+  d.point_begin.assign(d.size() + 1, 0);
+  d.point_list.clear();
+  for (const auto& [s, point] : inner) {
+    ++d.point_begin[to_index(s) + 1];
+    d.point_list.push_back(point);
+  }
+  for (std::size_t i = 0; i < d.size(); ++i) d.point_begin[i + 1] += d.point_begin[i];
+}
+
 std::vector<Interface> interfaces(const Decomposition& d) {
   std::vector<std::int32_t> begin(d.size() + 1, 0);  // where each subdomain's interfaces begin; later, where they end
   const auto each = [&](auto&& visit) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "driftmesh/ids.hpp"
@@ -82,6 +83,8 @@ struct Decomposition {
 
 /// Sets root_begin and root_list from the sides of the roots.
 void list_roots(Decomposition& decomposition);
+/// Sets point_begin and point_list from the points inside subdomains, in any order.
+void list_inner_points(Decomposition& decomposition, std::vector<std::pair<SubdomainId, GlobalPointId>> inner);
 
 /// Two subdomains with common roots.
 struct Interface {

@@ -108,18 +108,16 @@ class Parser {
   }
 
   void read_inner_points() {
-    d_.point_begin.assign(d_.size() + 1, 0);
-    std::pair<SubdomainId, GlobalPointId> last{kNoSubdomain, kNoPoint};
+    std::vector<std::pair<SubdomainId, GlobalPointId>> inner;
     for (std::int32_t i = 0; i < inner_points_; ++i) {
       in_.require_element(i, inner_points_, "inner points");
       const SubdomainId subdomain{integer("subdomain of an inner point", 0, subdomains_ - 1)};
       const GlobalPointId point{integer("inner point", 0, points_ - 1)};
-      if (std::pair(subdomain, point) <= std::exchange(last, {subdomain, point}))
+      if (!inner.empty() && std::pair(subdomain, point) <= inner.back())
         in_.problem("inner points are not in ascending order", "sort them by subdomain and number");
-      ++d_.point_begin[to_index(subdomain) + 1];
-      d_.point_list.push_back(point);
+      inner.emplace_back(subdomain, point);
     }
-    for (std::size_t i = 1; i < d_.point_begin.size(); ++i) d_.point_begin[i] += d_.point_begin[i - 1];
+    list_inner_points(d_, std::move(inner));
   }
 
   void check() const {

@@ -2,12 +2,10 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "base/bytes.hpp"
 #include "decompose/decomposition.hpp"
-#include "decompose/extract_subdomain.hpp"
 #include "decompose/subdomain_mesh.hpp"
 #include "dyadic/path.hpp"
 #include "mesh/bounds.hpp"
@@ -51,18 +49,5 @@ struct FurtherCut {
 
 [[nodiscard]] Bytes to_bytes(const FurtherCut& cut);
 [[nodiscard]] FurtherCut further_cut_from(ByteReader& reader);
-
-/// A decomposition with cuts, step by step: what was there keeps its numbers, but that only the first interval of a
-/// broken root does, and what is added is behind it.
-struct CutFurther {
-  Decomposition broken;           ///< roots are broken where separators will end
-  Decomposition with_separators;  ///< and there are separators inside the subdomains that are to be divided
-  Decomposition divided;          ///< and these are; the first part keeps the number of the whole
-  RenamedRoots renamed;
-  IdVector<SubdomainId, SubdomainId> whole_of;  ///< which one each subdomain was, or was part of
-};
-
-/// `cuts`: of different subdomains, ascending.
-[[nodiscard]] CutFurther with_cuts(const Decomposition& decomposition, std::span<const FurtherCut> cuts);
 
 }  // namespace driftmesh

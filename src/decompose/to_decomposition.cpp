@@ -187,13 +187,7 @@ void set_points(Decomposition& d, const PlanarMap& map, const IdVector<GlobalPoi
     r.a = new_id[r.a];
     r.b = new_id[r.b];
   }
-  std::sort(inner.begin(), inner.end());
-  d.point_begin.assign(d.size() + 1, 0);
-  for (const auto& [subdomain, point] : inner) {
-    ++d.point_begin[to_index(subdomain) + 1];
-    d.point_list.push_back(point);
-  }
-  for (std::size_t i = 0; i < d.size(); ++i) d.point_begin[i + 1] += d.point_begin[i];
+  list_inner_points(d, std::move(inner));
 }
 
 }  // namespace

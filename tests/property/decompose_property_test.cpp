@@ -23,12 +23,14 @@
 #include "oracles/random_pslg.hpp"
 #include "property/cases.hpp"
 #include "support/made_mesh.hpp"
+#include "support/prepared_mesh.hpp"
 #include "support/refine_together.hpp"
 
 // Decompositions of random domains: invariants, and refinement of the subdomains.
 
 using namespace driftmesh;
 using namespace driftmesh::oracles;
+using testing::prepared;
 
 namespace {
 
@@ -74,12 +76,6 @@ Outcome decompose_and_check(const Pslg& input, const Triangulation& mesh, int n)
     outcome.problem = error.what();
   }
   return outcome;
-}
-
-Triangulation prepared(const Pslg& pslg) {
-  Triangulation mesh = triangulate(pslg);
-  prepare_corners(mesh);
-  return mesh;
 }
 
 void append(Pslg& whole, const Pslg& part) {

@@ -15,14 +15,14 @@
 #include "decompose/check_decomposition.hpp"
 #include "decompose/decompose.hpp"
 #include "decompose/further_cut.hpp"
+#include "decompose/with_cuts.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/size_field.hpp"
 #include "geometry/triangle_geometry.hpp"
-#include "mesh/cdt.hpp"
-#include "mesh/corners.hpp"
 #include "mesh/exceptions.hpp"
 #include "oracles/random_pslg.hpp"
 #include "property/cases.hpp"
+#include "support/prepared_mesh.hpp"
 #include "support/refine_together.hpp"
 
 // Subdomains of a decomposition that has been refined are cut further: what is around them stays, and what comes of it
@@ -30,6 +30,7 @@
 
 using namespace driftmesh;
 using namespace driftmesh::oracles;
+using testing::prepared;
 
 namespace {
 
@@ -45,12 +46,6 @@ class Focus final : public SizeField {
   Point at_;
   double least_;
 };
-
-Triangulation prepared(const Pslg& pslg) {
-  Triangulation mesh = triangulate(pslg);
-  prepare_corners(mesh);
-  return mesh;
-}
 
 /// The cuts of a subdomain and a neighbor, which travel as bytes.
 std::vector<FurtherCut> cuts_of(const Decomposition& d, const testing::RefinedTogether& refined, SubdomainId s,
