@@ -1,9 +1,12 @@
 #include "gis/vector_file.hpp"
 
+#ifdef DRIFTMESH_GDAL_LIBRARY
+#include <nlohmann/json.hpp>
+#endif
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string_view>
 #include <vector>

@@ -7,6 +7,8 @@
 #include <limits>
 #include <unordered_set>
 
+#include "base/from_chars.hpp"
+
 namespace driftmesh {
 namespace {
 
@@ -25,7 +27,7 @@ std::optional<Number> value_of(std::string_view prefix, std::string_view name) {
   if (!name.starts_with(prefix)) return std::nullopt;
   name.remove_prefix(prefix.size());
   Number value{};
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), value);
+  const auto [end, error] = from_chars(name.data(), name.data() + name.size(), value);
   if (error != std::errc() || end != name.data() + name.size()) return std::nullopt;
   return value;
 }
