@@ -48,7 +48,10 @@ class Rivers {
       since_branch += step;
       if (order < 4 && since_branch > branch_after && done < 0.9 * length) {
         const double angle = heading + side * random_.uniform(0.8, 1.35);
-        grow(at, angle, here * random_.uniform(0.25, 0.6), (length - done) * random_.uniform(0.15, 0.45), order + 1);
+        // One after the other: compilers evaluate arguments in orders of their own.
+        const double branch_length = (length - done) * random_.uniform(0.15, 0.45);
+        const double branch_half_width = here * random_.uniform(0.25, 0.6);
+        grow(at, angle, branch_half_width, branch_length, order + 1);
         side = -side;
         since_branch = 0;
         branch_after = random_.uniform(0.7, 2.2) * std::max(here, 0.016 * unit_);
