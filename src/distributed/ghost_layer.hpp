@@ -57,7 +57,7 @@ class GhostLayer final : public Exchange {
 
   const DistributedPiece& piece_;
   std::map<Rank, std::vector<std::int32_t>> sent_;  // triangles
-  std::map<std::int32_t, std::int64_t> first_;      // each subdomain's number of triangles; then of its first one
+  std::map<std::int64_t, std::int64_t> first_;      // each subdomain's number of triangles; then of its first one
   GhostedPiece result_;
 };
 

@@ -52,10 +52,10 @@ TiledGrid resample(const GridRaster& source, const PlaceMap& to_source, const Bo
       std::swap(below, above);
       map_row(j + between_asked, above);
     }
-    const double t = static_cast<double>(j % between_asked) / between_asked;
+    const double t = static_cast<double>(j % between_asked) / static_cast<double>(between_asked);
     for (std::int64_t i = 0; i < frame.columns; ++i) {
       const auto k = static_cast<std::size_t>(i / between_asked);
-      const double s = static_cast<double>(i % between_asked) / between_asked;
+      const double s = static_cast<double>(i % between_asked) / static_cast<double>(between_asked);
       const Point place = between(between(below[k], below[k + 1], s), between(above[k], above[k + 1], s), t);
       grid.set(i, j, static_cast<float>(source.at(place)));
     }
