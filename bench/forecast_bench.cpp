@@ -72,7 +72,7 @@ double median_seconds(auto&& work) {
   return times[2];
 }
 
-double area_of(const Triangulation& mesh) {
+double domain_area(const Triangulation& mesh) {
   double area = 0;
   for (const TriangleId t : ids_of(mesh.triangles))
     if (mesh.triangles[t].alive()) area += signed_area(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
@@ -87,7 +87,7 @@ void print_row(const std::string& name, const Pslg& pslg, double angle, double t
   DecomposeOptions options;
   options.subdomains = n;
   options.bounds.min_angle = angle;
-  if (triangles > 0) options.bounds.plain.area = 1.55 * area_of(mesh) / triangles;
+  if (triangles > 0) options.bounds.plain.area = 1.55 * domain_area(mesh) / triangles;
   const double cost = median_seconds([&] { static_cast<void>(forecast_triangles(mesh, options.bounds)); }) / seconds;
   const Decomposition d = decompose(mesh, options);
   const SubdomainContext context{&d, options.bounds, triangles > 0};
