@@ -202,6 +202,13 @@ void join_by_partition(const WeightedGraph& graph, std::int32_t count, Groups& g
   if (joined.count() >= to_index(count)) groups = std::move(joined);
 }
 
+/// METIS, which halves again and again, complains on standard output where that leaves nothing for one side.
+bool can_be_halved(const WeightedGraph& graph) {
+  const auto& weights = graph.vertex_weight;
+  const double all = std::accumulate(weights.begin(), weights.end(), 0.0);
+  return 2 * *std::ranges::max_element(weights) < all;
+}
+
 void join_bundles(const IdVector<PieceId, Piece>& pieces, Groups& groups) {
   std::map<std::int32_t, PieceId> first;
   for (const PieceId i : ids_of(pieces)) {
@@ -288,7 +295,8 @@ IdVector<PieceId, SubdomainId> group_pieces(const PlanarMap& map, const IdVector
   const WeightedGraph graph = graph_of(map, pieces);
   Groups groups(graph);
   join_bundles(pieces, groups);
-  if (pieces.size() > 2 * to_index(count) && can_partition_graphs()) join_by_partition(graph, count, groups);
+  if (pieces.size() > 2 * to_index(count) && can_partition_graphs() && can_be_halved(graph))
+    join_by_partition(graph, count, groups);
   while (groups.count() > to_index(count) && groups.join_lightest()) {
   }
   IdVector<PieceId, SubdomainId> number(pieces.size(), kNoSubdomain), group_of;
