@@ -182,12 +182,14 @@ def follow_on_ranks(communicator, shortest, subdomains, generations):
     for generation in range(1, generations + 1):
         mesh.adapt(ring(mesh.piece.mesh.points, shortest, generation, ASIDE))
         after = load_by_subdomain(communicator, mesh)
-        before = after | before  # what was added by dividing counts as if it had been where it is
+        # what is joined goes to the rank of the largest of its parts, and what is divided is where it was
+        home = {s: before[max(of_one, key=lambda p: before[p][1])][0] for s, of_one in enumerate(mesh.parents)}
+        gathered = {p: load for s, of_one in enumerate(mesh.parents) for p in of_one for rank, load in [before[p]] if rank != home[s]}
         stay, now = (sums(loads, communicator.size) for loads in
-                     ([(before[s][0], load) for s, (_, load) in after.items()], after.values()))
+                     ([(home[s], load) for s, (_, load) in after.items()], after.values()))
         mean = sum(now) / communicator.size
         rows.append({"triangles": sum(now), "subdomains": len(after), "before": max(stay) / mean, "after": max(now) / mean,
-                     "moved": sum(load for s, (rank, load) in after.items() if rank != before[s][0]),
+                     "moved": sum(load for s, (rank, load) in after.items() if rank != home[s]) + sum(gathered.values()),
                      "above": sum(max(0, load - 1.05 * mean) for load in stay)})
         before = after
     return rows
@@ -206,7 +208,7 @@ def on_ranks(options):
                   ["ranks", "shortest", "triangles", "subdomains", "fences with moves", "if nothing moved", "largest over mean", "moved", "above", "moved over above"],
                   f"Around {ASIDE}. The solver takes the same time for each triangle. Largest load of a rank over the mean at the worst fence, as it is and as it would be if what "
                   "that fence moved had stayed. Moved: triangles at all fences together; above: sums over ranks of the load beyond 1.05 of the mean before that. "
-                  "What dividing added counts as having been where it is, so that its moves are not seen.")
+                  "What is joined is first brought to the rank of the largest of its parts, which counts as moved.")
     lengths = options.length or [0.002, 0.001]
     for ranks in options.ranks:
         said = subprocess.run(["mpirun", "--oversubscribe", "-n", str(ranks), sys.executable, __file__, "--worker", "--generations",

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -87,11 +88,12 @@ struct Counts {
 };
 
 void set_divided(const adapt::Session& session, Counts& counts) {
-  IdVector<SubdomainId, int> parts_of(counts.triangles.size(), 0);
-  for (const SubdomainId whole : session.whole_of()) ++parts_of[whole];
+  const auto parents = session.parents();
+  std::map<std::vector<std::int32_t>, int> parts_of;
+  for (const auto& of_one : parents) ++parts_of[of_one];
   double all = 0;
-  for (const SubdomainId s : ids_of(session.whole_of()))
-    if (parts_of[session.whole_of()[s]] > 1) all += counts.divided[s] = counts.triangles[s];
+  for (const SubdomainId s : ids_of(counts.divided))
+    if (parts_of[parents[to_index(s)]] > 1) all += counts.divided[s] = counts.triangles[s];
   for (double& share : counts.divided) share /= std::max(1.0, all);
 }
 
@@ -143,6 +145,22 @@ double slowest(const Holders& holders, std::size_t ranks, const std::function<do
   IdVector<Rank, double> all(ranks, 0.0);
   for (const SubdomainId s : ids_of(holders)) all[holders[s]] += seconds(s);
   return *std::ranges::max_element(all);
+}
+
+/// What is joined goes to the rank of the largest of its parts, and what is divided is where it was.
+void follow(Way& way, const std::vector<std::vector<std::int32_t>>& parents, const Counts& before) {
+  Holders next;
+  IdVector<SubdomainId, bool> seen(way.holders.size(), false);
+  for (const auto& of_one : parents) {
+    const auto triangles_of = [&](std::int32_t s) { return before.triangles[SubdomainId{s}]; };
+    const Rank holder = way.holders[SubdomainId{*std::ranges::max_element(of_one, {}, triangles_of)}];
+    for (const std::int32_t s : of_one) {
+      if (!seen[SubdomainId{s}] && way.holders[SubdomainId{s}] != holder) way.moved += triangles_of(s);
+      seen[SubdomainId{s}] = true;
+    }
+    next.push_back(holder);
+  }
+  way.holders = std::move(next);
 }
 
 /// A generation is made by those who hold it, then subdomains move, then the solver works.
@@ -202,7 +220,8 @@ void run(const Options& options) {
     loads.speeds = IdVector<Rank, double>(ranks, 0.0);
     return loads;
   };
-  const adapt::Loads first = loads_of(counts_of(session));
+  Counts before = counts_of(session);
+  const adapt::Loads first = loads_of(before);
   Holders start;
   for (const SubdomainId s : ids_of(first.work))
     start.push_back(static_cast<Rank>(to_index(s) * ranks / first.work.size()));
@@ -215,10 +234,9 @@ void run(const Options& options) {
     session.adapt(lengths, means, {});
     const Counts counts = counts_of(session);
     const adapt::Loads loads = loads_of(counts);
-    for (Way& way : ways)  // what a subdomain is divided into is where it was
-      for (const SubdomainId s : ids_of(session.whole_of()))
-        if (to_index(s) >= way.holders.size()) way.holders.push_back(way.holders[session.whole_of()[s]]);
+    for (Way& way : ways) follow(way, session.parents(), before);
     for (Way& way : ways) advance(way, loads, counts, session.report());
+    before = counts;
     largest = std::max(largest, *std::ranges::max_element(counts.triangles) * options.ranks / counts.all);
     if (generation % 5 != 0) continue;
     for (const Way& way : ways)

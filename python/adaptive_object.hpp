@@ -227,6 +227,7 @@ class AdaptiveObject {
   report["mended"] = r.mended;
   report["remade"] = r.remade;
   report["divided"] = r.divided;
+  report["joined"] = r.joined;
   report["moved"] = r.moved;
   report["scale"] = r.scale;
   report["imbalance"] = r.imbalance;
@@ -281,8 +282,12 @@ void add_adaptive_methods(py::class_<Object>& adaptive) {
           "stayed_triangles", [](const Object& self) { return copied(self.at_rest().stayed_triangles()); },
           "For each triangle its number in the last mesh, -1 for those that are new, shape (triangles,).")
       .def_property_readonly(
+          "parents", [](const Object& self) { return self.at_rest().parents(); },
+          "For each subdomain a list of those of the last mesh of which it is what they were, or a part of it.")
+      .def_property_readonly(
           "report", [](const Object& self) { return report_of(self.at_rest().report()); },
-          "What the last adapt() did: subdomains kept, mended, remade and moved, and times in seconds.");
+          "What the last adapt() did: subdomains kept, mended, remade, divided, joined and moved, and times in "
+          "seconds.");
 }
 
 }  // namespace driftmesh::python

@@ -55,6 +55,7 @@ struct AdaptReport {
   std::int32_t mended = 0;      ///< subdomains of which only parts changed
   std::int32_t remade = 0;      ///< subdomains that were made anew
   std::int32_t divided = 0;     ///< subdomains that were added, since lengths asked for too much of one
+  std::int32_t joined = 0;      ///< subdomains that are part of another one now, since lengths asked for little of them
   std::int32_t moved = 0;       ///< subdomains that went to another rank
   double scale = 1;             ///< factor on all lengths, for most_triangles
   double imbalance = 1;         ///< time of the slowest rank over the mean, as forecast, for what the caller does next
@@ -74,9 +75,9 @@ struct AdaptReport {
 /// regions stay; so do whole subdomains, with all their points and triangles, where the mesh is as it should be.
 ///
 /// The domain is cut as by options.subdomains; a subdomain that lengths come to ask for more than four times the mean
-/// of is cut further. options.min_angle, max_area and region_areas hold for all generations; options.size and
-/// options.triangles for the first one alone. The same calls give the same meshes and fields, bit for bit, on any
-/// number of threads.
+/// of is cut further, and those of which they ask little become one. options.min_angle, max_area and region_areas hold
+/// for all generations; options.size and options.triangles for the first one alone. The same calls give the same meshes
+/// and fields, bit for bit, on any number of threads.
 ///
 /// An object is used by one thread at a time. What throws leaves it as it was.
 ///
@@ -146,6 +147,9 @@ class AdaptiveMesh {
   [[nodiscard]] const std::vector<std::int32_t>& stayed_points() const;
   /// The same for triangles: those that have the same corners.
   [[nodiscard]] const std::vector<std::int32_t>& stayed_triangles() const;
+  /// For each subdomain those of the last mesh of which it is what they were, or part of it, ascending: itself under
+  /// its old number, the one that was divided, or all that were joined.
+  [[nodiscard]] std::vector<std::vector<std::int32_t>> parents() const;
   [[nodiscard]] const AdaptReport& report() const;
 
   /// Whether adapt() keeps the mesh that it replaces, from the next call on, for what a caller wants to transfer

@@ -1,11 +1,11 @@
 #include "adapt/divide.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "adapt/granularity.hpp"
 #include "adapt/linear_lengths.hpp"
 #include "adapt/of_all_parts.hpp"
 #include "adapt/recast.hpp"
@@ -15,20 +15,6 @@
 
 namespace driftmesh::adapt {
 namespace {
-
-/// Those that are to be divided, each with the number of parts that it should have.
-std::vector<std::pair<SubdomainId, std::int32_t>> heavy_of(const IdVector<SubdomainId, double>& asked,
-                                                           std::int32_t shares) {
-  constexpr double kMost = 64;
-  double all = 0;
-  for (const double triangles : asked) all += triangles;
-  const double mean = std::max(all / shares, kSmall / kHeavy);
-  std::vector<std::pair<SubdomainId, std::int32_t>> heavy;
-  for (const SubdomainId s : ids_of(asked))
-    if (asked[s] > kHeavy * mean)
-      heavy.emplace_back(s, static_cast<std::int32_t>(std::lround(std::min(asked[s] / mean, kMost))));
-  return heavy;
-}
 
 /// The sizes by which the present mesh was made.
 class Sizes {
@@ -112,7 +98,7 @@ Parts remade(const Generation& present, const IdVector<SubdomainId, double>& ask
 
 std::optional<Divided> divide_heavy(const Parts& parts, const Dividing& how, Ranks& ranks) {
   const auto asked = of_all_parts(ranks, how.before, [&](SubdomainId s) { return parts[s].asked; });
-  const auto heavy = heavy_of(asked, how.shares);
+  const auto heavy = heavy_ones(asked, how.shares);
   if (heavy.empty()) return {};
   Generation present;  // without a piece
   present.parts = parts;

@@ -13,10 +13,6 @@
 
 namespace driftmesh::adapt {
 
-/// A subdomain is divided if lengths ask for more than this many times the mean of it, unless it is small.
-inline constexpr double kHeavy = 4;
-inline constexpr double kSmall = 400;  // triangles
-
 /// The parts of a generation of which heavy ones are made of several.
 struct Divided {
   Parts parts;     ///< with the separators inside, as in cut.with_separators
@@ -26,7 +22,7 @@ struct Divided {
 /// What a division starts from. All outlive the call.
 struct Dividing {
   const RunPlan& plan;       ///< whose decomposition is that of `before`
-  std::int32_t shares;       ///< the number of subdomains of which one has the mean
+  std::int32_t shares;       ///< see granularity.hpp
   const Generation& before;  ///< the generation before
   const Wanted& wanted;      ///< what it wanted of the new one
   std::int32_t threads;

@@ -29,17 +29,18 @@ void require_sound(const Generation& before, const Spent& spent) {
 }
 
 /// What one rank tells all.
-struct Told {
+struct ToldByRank {
   double seconds = 0;  ///< -1: none for the rank as a whole
   double triangles = 0;
   std::int64_t by_parts = 0;
 };
 
-std::vector<Told> told_by_all(const Generation& before, const Spent& spent, Ranks& ranks) {
-  Told own{spent.on_rank.value_or(-1), static_cast<double>(before.piece.mesh.triangles.size()), spent.on_parts ? 1 : 0};
+std::vector<ToldByRank> told_by_all(const Generation& before, const Spent& spent, Ranks& ranks) {
+  ToldByRank own{spent.on_rank.value_or(-1), static_cast<double>(before.piece.mesh.triangles.size()),
+                 spent.on_parts ? 1 : 0};
   ByteWriter writer;
   writer.value(own);
-  std::vector<Told> all;
+  std::vector<ToldByRank> all;
   for (const Bytes& bytes : ranks.bytes_of_all(writer.take())) ByteReader(bytes).value(all.emplace_back());
   return all;
 }
@@ -55,22 +56,40 @@ double bytes_of(const Generation& generation, SubdomainId s, const Fields& field
   return bytes * triangles_of(generation.parts[s]);
 }
 
+/// Seconds a triangle, of the parts after.
+IdVector<SubdomainId, double> costs_of(const Generation& before, const Descendants& descendants,
+                                       const std::vector<double>& seconds, Ranks& ranks) {
+  struct Cost {
+    double seconds = 0, triangles = 0;
+  };
+  const IdVector<SubdomainId, Cost> told = of_all_parts(ranks, before, [&](SubdomainId s) {
+    const auto i = std::ranges::lower_bound(before.here, s) - before.here.begin();
+    return Cost{seconds[static_cast<std::size_t>(i)], triangles_of(before.parts[s])};
+  });
+  IdVector<SubdomainId, Cost> of_whole(before.parts.size());
+  for (const SubdomainId s : ids_of(told)) {
+    of_whole[descendants.whole[s]].seconds += told[s].seconds;
+    of_whole[descendants.whole[s]].triangles += told[s].triangles;
+  }
+  IdVector<SubdomainId, double> costs;
+  for (const SubdomainId whole : descendants.whole_of)
+    costs.push_back(of_whole[whole].seconds / of_whole[whole].triangles);
+  return costs;
+}
+
 }  // namespace
 
-Loads loads_of(const Generation& before, const Generation& after, const IdVector<SubdomainId, SubdomainId>& whole_of,
-               const Fields& fields, const Spent& spent, Ranks& ranks) {
+Loads loads_of(const Generation& before, const Generation& after, const Descendants& descendants, const Fields& fields,
+               const Spent& spent, Ranks& ranks) {
   ranks.agree([&] { require_sound(before, spent); });
-  const std::vector<Told> told = told_by_all(before, spent, ranks);
-  const bool by_parts = std::ranges::all_of(told, [](const Told& t) { return t.by_parts != 0; });
+  const std::vector<ToldByRank> told = told_by_all(before, spent, ranks);
+  const bool by_parts = std::ranges::all_of(told, [](const ToldByRank& t) { return t.by_parts != 0; });
   Loads loads;
-  for (const Told& t : told) loads.speeds.push_back(!by_parts && t.seconds > 0 ? t.triangles / t.seconds : 0);
+  for (const ToldByRank& t : told) loads.speeds.push_back(!by_parts && t.seconds > 0 ? t.triangles / t.seconds : 0);
   loads.bytes = of_all_parts(ranks, after, [&](SubdomainId s) { return bytes_of(after, s, fields); });
   loads.work = of_all_parts(ranks, after, [&](SubdomainId s) { return triangles_of(after.parts[s]); });
   if (!by_parts) return loads;
-  const IdVector<SubdomainId, double> costs = of_all_parts(ranks, after, [&](SubdomainId s) {  // seconds a triangle
-    const auto i = std::ranges::lower_bound(before.here, whole_of[s]) - before.here.begin();
-    return (*spent.on_parts)[static_cast<std::size_t>(i)] / triangles_of(before.parts[whole_of[s]]);
-  });
+  const IdVector<SubdomainId, double> costs = costs_of(before, descendants, *spent.on_parts, ranks);
   double seconds = 0, triangles = 0;
   for (const SubdomainId s : ids_of(costs)) {
     seconds += costs[s] * loads.work[s];

@@ -25,13 +25,17 @@ struct Loads {
   IdVector<Rank, double> speeds;  ///< in triangles a second; 0: unknown
 };
 
-/// Loads of the parts of `after`, each of which is, or was part of, the one of `before` that `whole_of` names, on the
-/// same rank. The time was spent on `before`. If ranks have told of each part, its triangles cost what they did; else
-/// all cost the same, and ranks are as fast as they were. Throws Error, on all ranks, for numbers of seconds that do
-/// not suit. Collective.
-[[nodiscard]] Loads loads_of(const Generation& before, const Generation& after,
-                             const IdVector<SubdomainId, SubdomainId>& whole_of, const Fields& fields,
-                             const Spent& spent, Ranks& ranks);
+/// Which part is where in a mesh that comes after another: some are joined first, and some are divided then.
+struct Descendants {
+  IdVector<SubdomainId, SubdomainId> whole;     ///< what each part of the mesh before has become, or is a part of
+  IdVector<SubdomainId, SubdomainId> whole_of;  ///< which of these each part after is, or is a part of
+};
+
+/// Loads of the parts of `after`. The time was spent on `before`. If ranks have told of each part, its triangles cost
+/// what they did; else all cost the same, and ranks are as fast as they were. Throws Error, on all ranks, for numbers
+/// of seconds that do not suit. Collective.
+[[nodiscard]] Loads loads_of(const Generation& before, const Generation& after, const Descendants& descendants,
+                             const Fields& fields, const Spent& spent, Ranks& ranks);
 
 /// The speeds of ranks, where those that are not known are the mean of the others.
 [[nodiscard]] IdVector<Rank, double> speeds_of(const Loads& loads);

@@ -34,7 +34,7 @@ std::vector<Parcel> swap_parcels(const Generation& generation, const Fields& fie
 }
 
 /// Where what stayed since the last generation is now, for a part that has not moved.
-void take_stayed(const Holding& present, const Generation& next, SubdomainId s, Holding& to) {
+void take_stayed(const Held& present, const Generation& next, SubdomainId s, Holding& to) {
   const Generation& now = present.generation;
   for (const VertexId v : ids_of(next.places[s]))
     if (next.places[s][v] != kNone && !present.stayed_points.empty())
@@ -46,7 +46,7 @@ void take_stayed(const Holding& present, const Generation& next, SubdomainId s, 
 
 }  // namespace
 
-Holding moved(const Holding& present, const IdVector<SubdomainId, Rank>& holders,
+Holding moved(const Held& present, const IdVector<SubdomainId, Rank>& holders,
               const std::function<Generation(Parts)>& assemble, Ranks& ranks) {
   std::vector<Parcel> parcels = swap_parcels(present.generation, present.fields, holders, ranks);
   Parts parts = present.generation.parts;

@@ -11,17 +11,26 @@
 
 namespace driftmesh::adapt {
 
-/// What a rank has of the present generation, apart from its parts' meshes.
+/// What a rank has of the present generation, apart from its parts' meshes; to look at.
+struct Held {
+  const Generation& generation;
+  const Fields& fields;
+  const std::vector<std::int32_t>&stayed_points, &stayed_triangles;
+};
+/// The same, to keep.
 struct Holding {
   Generation generation;
   Fields fields;
   std::vector<std::int32_t> stayed_points, stayed_triangles;
+  operator Held() const {  // NOLINT(google-explicit-constructor): it is the same
+    return {generation, fields, stayed_points, stayed_triangles};
+  }
 };
 
 /// The same with other holders of subdomains, which are given on all ranks: what moves takes its fields along, and
 /// nothing of what arrives counts as having stayed. `assemble`: as adapt::assemble, with what the caller knows.
 /// Collective.
-[[nodiscard]] Holding moved(const Holding& present, const IdVector<SubdomainId, Rank>& holders,
+[[nodiscard]] Holding moved(const Held& present, const IdVector<SubdomainId, Rank>& holders,
                             const std::function<Generation(Parts)>& assemble, Ranks& ranks);
 
 }  // namespace driftmesh::adapt

@@ -14,7 +14,7 @@ namespace driftmesh::adapt {
 /// subdomain each one of `now` is, or is a part of; it stays on the rank of that one. A part that is not divided, and
 /// none of whose roots became a chain, keeps its mesh. `assemble`: as adapt::assemble with `now`, and with what the
 /// caller knows. Throws Error, on all ranks, if `now` does not continue the present decomposition. Collective.
-[[nodiscard]] Holding recast(const Holding& present, const RenamedRoots& renamed, const Decomposition& now,
+[[nodiscard]] Holding recast(const Held& present, const RenamedRoots& renamed, const Decomposition& now,
                              const IdVector<SubdomainId, SubdomainId>& whole_of,
                              const std::function<Generation(Parts)>& assemble, Ranks& ranks);
 

@@ -7,6 +7,7 @@
 
 #include "adapt/demand.hpp"
 #include "adapt/error_lengths.hpp"
+#include "adapt/join.hpp"
 #include "adapt/lineage.hpp"
 #include "adapt/of_all_parts.hpp"
 #include "adapt/parcel.hpp"
@@ -72,6 +73,21 @@ std::string words_of(FieldPlace place, Transfer how) {
          (how == Transfer::kConserve ? ", conserving" : ", by interpolation");
 }
 
+IdVector<SubdomainId, SubdomainId> numbers_of(const Parts& parts) {
+  const auto numbers = ids_of(parts);
+  return {numbers.begin(), numbers.end()};
+}
+
+/// What stayed since an earlier mesh, if `made` knows what stayed since `earlier`.
+void since(const Holding& earlier, Holding& made) {
+  const auto follow = [](std::vector<std::int32_t>& stayed, const std::vector<std::int32_t>& before) {
+    for (std::int32_t& number : stayed)
+      if (number >= 0) number = before[to_index(number)];
+  };
+  follow(made.stayed_points, earlier.stayed_points);
+  follow(made.stayed_triangles, earlier.stayed_triangles);
+}
+
 }  // namespace
 
 Session::Session(Start start, const AdaptiveOptions& options, std::function<void(Mesh&)> finish, const Means& means)
@@ -83,6 +99,7 @@ Session::Session(Start start, const AdaptiveOptions& options, std::function<void
     parts[s] =
         first_part(std::move(mesh), plan_.bounds, start.lengths.empty() ? Lengths() : std::move(start.lengths.at(s)));
   shares_ = static_cast<std::int32_t>(plan_.decomposition.size());
+  descendants_ = {numbers_of(parts), numbers_of(parts)};
   present_ = assembled(plan_.decomposition, std::move(parts), means.ranks);
 }
 
@@ -96,6 +113,7 @@ Session::Session(Saved saved, std::function<void(Mesh&)> finish, const Means& me
   Parts parts(plan_.decomposition.size());
   for (const auto& [s, parcel] : saved.parcels) parts[s] = parcel.part;
   shares_ = saved.head.shares;
+  descendants_ = {numbers_of(parts), numbers_of(parts)};
   present_ = assembled(plan_.decomposition, std::move(parts), means.ranks);
   fields_ = without_values(saved.head.fields, present_.piece);
   means.ranks.agree([&] {
@@ -173,14 +191,13 @@ IdVector<SubdomainId, Demand> Session::demands_of(const Wanted& wanted, std::int
   return of_all_parts(ranks, present_, [&](SubdomainId s) { return own[s]; });
 }
 
-/// With the fields that the present generation has.
-Holding Session::holding(Generation next, std::int32_t threads, Ranks& ranks) {
-  take_from_owners(fields_, present_.piece, ranks);
+/// With the fields that the generation before has.
+Holding Session::holding(const Held& before, Generation next, std::int32_t threads, Ranks& ranks) {
   Holding made{std::move(next), {}, {}, {}};
-  const Lineage lineage(present_, made.generation, threads, ranks);
+  const Lineage lineage(before.generation, made.generation, threads, ranks);
   made.stayed_points = lineage.stayed_points();
   made.stayed_triangles = lineage.stayed_triangles();
-  made.fields = carried(fields_, lineage);
+  made.fields = carried(before.fields, lineage);
   return made;
 }
 
@@ -193,51 +210,66 @@ void Session::advance(const std::function<Wanted()>& want, const Means& means, c
   const Wanted wanted = want();
   report.scale = wanted.scale;
   const IdVector<SubdomainId, Demand> demands = demands_of(wanted, threads, ranks);
-  const IdVector<SubdomainId, Fate> fates = of_all_parts(
-      ranks, present_, [&](SubdomainId s) { return fate_of(present_.parts[s], demands[s], options_.coarsening); });
-  for (const Fate fate : fates)
-    ++(fate == Fate::kKeep ? report.kept : fate == Fate::kMend ? report.mended : report.remade);
+  take_from_owners(fields_, present_.piece, ranks);
   report.lengths = stage.seconds();
 
   stage = {};
-  Parts parts = regenerate(plan_, present_, wanted, demands, fates, threads, ranks, hooks);
-  report.refine = stage.seconds();
-
-  stage = {};
-  const Dividing dividing{plan_, shares_, present_, wanted, threads, hooks};
-  std::optional<Divided> divided = divide_heavy(parts, dividing, ranks);
-  if (divided) parts = std::move(divided->parts);
+  const Basis before{plan_, {present_, fields_, stayed_points_, stayed_triangles_}, wanted, demands};
+  const auto assemble_parts = [&](const Decomposition& decomposition, Parts parts) {
+    return assembled(decomposition, std::move(parts), ranks);
+  };
+  std::optional<Joined> joined = join_light(before, shares_, assemble_parts, ranks);
+  const Basis basis = joined ? joined->basis() : before;
+  const Generation& from = basis.present.generation;
+  report.joined = static_cast<std::int32_t>(present_.parts.size() - from.parts.size());
   report.divide = stage.seconds();
 
   stage = {};
-  Generation next = assembled(divided ? divided->cut.with_separators : plan_.decomposition, std::move(parts), ranks);
+  const IdVector<SubdomainId, Fate> fates =
+      fates_of(basis, joined ? joined->several : std::vector<SubdomainId>(), ranks);
+  for (const Fate fate : fates)
+    ++(fate == Fate::kKeep ? report.kept : fate == Fate::kMend ? report.mended : report.remade);
+  Parts parts = regenerate(basis.plan, from, basis.wanted, basis.demands, fates, threads, ranks, hooks);
+  report.refine = stage.seconds();
+
+  stage = {};
+  const Dividing dividing{basis.plan, shares_, from, basis.wanted, threads, hooks};
+  std::optional<Divided> divided = divide_heavy(parts, dividing, ranks);
+  if (divided) parts = std::move(divided->parts);
+  report.divide += stage.seconds();
+
+  stage = {};
+  Generation next =
+      assembled(divided ? divided->cut.with_separators : basis.plan.decomposition, std::move(parts), ranks);
   report.assemble = stage.seconds();
 
   stage = {};
-  Holding made = holding(std::move(next), threads, ranks);
+  Holding made = holding(basis.present, std::move(next), threads, ranks);
+  if (joined) since(joined->present, made);
   report.transfer = stage.seconds();
 
   stage = {};
-  const Decomposition& decomposition = divided ? divided->cut.divided : plan_.decomposition;
-  const auto same = ids_of(present_.parts);
-  IdVector<SubdomainId, SubdomainId> whole_of(same.begin(), same.end());
+  const Decomposition& decomposition = divided ? divided->cut.divided : basis.plan.decomposition;
+  Descendants descendants{joined ? std::move(joined->whole) : numbers_of(present_.parts), numbers_of(from.parts)};
   if (divided) {
-    whole_of = std::move(divided->cut.whole_of);
+    descendants.whole_of = std::move(divided->cut.whole_of);
     made = recast(
-        made, {}, decomposition, whole_of,
+        made, {}, decomposition, descendants.whole_of,
         [&](Parts of_next) { return assembled(decomposition, std::move(of_next), ranks); }, ranks);
   }
-  report.divided = static_cast<std::int32_t>(whole_of.size() - present_.parts.size());
+  report.divided = static_cast<std::int32_t>(decomposition.size() - from.parts.size());
   report.assemble += stage.seconds();
 
   stage = {};
-  made = placed(std::move(made), decomposition, whole_of, means, report);
+  report.moved = joined ? joined->moved : 0;
+  made = placed(std::move(made), decomposition, descendants, means, report);
   report.balance = stage.seconds();
 
   old_.reset();
   if (keeps_old_) old_ = std::move(present_.piece);
-  if (divided) set_decomposition(std::move(divided->cut.divided), whole_of);
-  whole_of_ = std::move(whole_of);
+  if (joined) plan_ = std::move(joined->plan);
+  if (divided) set_decomposition(std::move(divided->cut.divided), descendants.whole_of);
+  descendants_ = std::move(descendants);
   present_ = std::move(made.generation);
   stayed_points_ = std::move(made.stayed_points);
   stayed_triangles_ = std::move(made.stayed_triangles);
@@ -245,6 +277,22 @@ void Session::advance(const std::function<Wanted()>& want, const Means& means, c
   spent_ = {};
   report.seconds = all.seconds();
   report_ = report;
+}
+
+IdVector<SubdomainId, Fate> Session::fates_of(const Basis& basis, const std::vector<SubdomainId>& joined,
+                                              Ranks& ranks) const {
+  const Generation& from = basis.present.generation;
+  IdVector<SubdomainId, Fate> fates = of_all_parts(
+      ranks, from, [&](SubdomainId s) { return fate_of(from.parts[s], basis.demands[s], options_.coarsening); });
+  for (const SubdomainId s : joined) fates[s] = Fate::kRemake;
+  return fates;
+}
+
+std::vector<std::vector<std::int32_t>> Session::parents() const {
+  std::vector<std::vector<std::int32_t>> of_whole(descendants_.whole.size()), all;
+  for (const SubdomainId s : ids_of(descendants_.whole)) of_whole[to_index(descendants_.whole[s])].push_back(to_int(s));
+  for (const SubdomainId whole : descendants_.whole_of) all.push_back(of_whole[to_index(whole)]);
+  return all;
 }
 
 void Session::keep_old(bool keep) {
@@ -264,20 +312,20 @@ void Session::set_decomposition(Decomposition decomposition, const IdVector<Subd
 }
 
 /// On other ranks where that makes up for an imbalance.
-Holding Session::placed(Holding made, const Decomposition& decomposition,
-                        const IdVector<SubdomainId, SubdomainId>& whole_of, const Means& means,
-                        AdaptReport& report) const {
+Holding Session::placed(Holding made, const Decomposition& decomposition, const Descendants& descendants,
+                        const Means& means, AdaptReport& report) const {
   Ranks& ranks = means.ranks;
   if (ranks.alone() || !means.place) return made;
-  const Loads loads = loads_of(present_, made.generation, whole_of, made.fields, spent_, ranks);
+  const Loads loads = loads_of(present_, made.generation, descendants, made.fields, spent_, ranks);
   const std::vector<Rank> own = means.place(loads, made.generation, decomposition);
   const IdVector<SubdomainId, Rank> now = made.generation.holders;
   const IdVector<SubdomainId, Rank> holders = of_all_parts(ranks, made.generation, [&](SubdomainId s) {
     const auto i = std::ranges::lower_bound(made.generation.here, s) - made.generation.here.begin();
     return own.empty() ? now[s] : own.at(static_cast<std::size_t>(i));
   });
+  const bool any = holders != now;
   for (const SubdomainId s : ids_of(holders)) report.moved += holders[s] != now[s] ? 1 : 0;
-  if (report.moved > 0)
+  if (any)
     made = moved(
         made, holders, [&](Parts parts) { return assembled(decomposition, std::move(parts), ranks); }, ranks);
   report.imbalance = imbalance(loads, holders);

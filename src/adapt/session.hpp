@@ -13,6 +13,7 @@
 #include "adapt/fields.hpp"
 #include "adapt/fit_lengths.hpp"
 #include "adapt/generation.hpp"
+#include "adapt/join.hpp"
 #include "adapt/loads.hpp"
 #include "adapt/move.hpp"
 #include "adapt/regenerate.hpp"
@@ -53,8 +54,9 @@ class Session {
   [[nodiscard]] const DistributedPiece& piece() const { return present_.piece; }
   [[nodiscard]] const Pslg& pslg() const { return pslg_; }
   [[nodiscard]] const Decomposition& decomposition() const { return plan_.decomposition; }
-  /// Which one each subdomain was, or was part of, before the last call of adapt(); empty before the first.
-  [[nodiscard]] const IdVector<SubdomainId, SubdomainId>& whole_of() const { return whole_of_; }
+  /// For each subdomain those before the last call of adapt() of which it is what they were, or a part of it,
+  /// ascending.
+  [[nodiscard]] std::vector<std::vector<std::int32_t>> parents() const;
   [[nodiscard]] const AdaptiveOptions& options() const { return options_; }
   [[nodiscard]] const AdaptReport& report() const { return report_; }
   [[nodiscard]] const std::vector<std::int32_t>& stayed_points() const { return stayed_points_; }
@@ -91,17 +93,18 @@ class Session {
   void advance(const std::function<Wanted()>& want, const Means& means, const Hooks& hooks);
   [[nodiscard]] IdVector<SubdomainId, Demand> demands_of(const Wanted& wanted, std::int32_t threads,
                                                          Ranks& ranks) const;
-  [[nodiscard]] Holding holding(Generation next, std::int32_t threads, Ranks& ranks);
+  [[nodiscard]] IdVector<SubdomainId, Fate> fates_of(const Basis& basis, const std::vector<SubdomainId>& joined,
+                                                     Ranks& ranks) const;
+  [[nodiscard]] static Holding holding(const Held& before, Generation next, std::int32_t threads, Ranks& ranks);
   [[nodiscard]] Generation assembled(const Decomposition& decomposition, Parts parts, Ranks& ranks) const;
-  [[nodiscard]] Holding placed(Holding made, const Decomposition& decomposition,
-                               const IdVector<SubdomainId, SubdomainId>& whole_of, const Means& means,
-                               AdaptReport& report) const;
+  [[nodiscard]] Holding placed(Holding made, const Decomposition& decomposition, const Descendants& descendants,
+                               const Means& means, AdaptReport& report) const;
   void set_decomposition(Decomposition decomposition, const IdVector<SubdomainId, SubdomainId>& whole_of);
   [[nodiscard]] Field& find_field(const std::string& name);
 
   RunPlan plan_;
   std::int32_t shares_ = 0;  // subdomains at the beginning
-  IdVector<SubdomainId, SubdomainId> whole_of_;
+  Descendants descendants_;
   Pslg pslg_;
   AdaptiveOptions options_;
   std::function<void(Mesh&)> finish_;

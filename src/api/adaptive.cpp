@@ -98,6 +98,10 @@ const std::vector<std::int32_t>& AdaptiveMesh::stayed_triangles() const {
   return impl_->core.session().stayed_triangles();
 }
 
+std::vector<std::vector<std::int32_t>> AdaptiveMesh::parents() const {
+  return impl_->core.session().parents();
+}
+
 void AdaptiveMesh::keep_old(bool keep) {
   impl_->core.session().keep_old(keep);
 }

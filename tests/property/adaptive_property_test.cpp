@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -91,6 +92,7 @@ MeshOptions judged_by(const MeshOptions& options, const SizeField& size) {
 
 void check_stayed(const Mesh& before, const AdaptiveMesh& adaptive) {
   const Mesh& after = adaptive.mesh();
+  const auto parents = adaptive.parents();
   REQUIRE(adaptive.stayed_points().size() == after.points.size());
   REQUIRE(adaptive.stayed_triangles().size() == after.triangles.size());
   std::size_t wrong = 0;
@@ -103,8 +105,12 @@ void check_stayed(const Mesh& before, const AdaptiveMesh& adaptive) {
     std::array<std::int32_t, 3> corners{};
     for (std::size_t i = 0; i < 3; ++i) corners[i] = adaptive.stayed_points()[after.triangles[t][i]];
     wrong += !std::is_permutation(corners.begin(), corners.end(), before.triangles[old].begin());
+    wrong += std::ranges::count(parents.at(after.subdomains[t]), before.subdomains[old]) != 1;
   }
   CHECK(wrong == 0);
+  std::set<std::int32_t> all;
+  for (const auto& of_one : parents) all.insert(of_one.begin(), of_one.end());
+  CHECK(all == std::set(before.subdomains.begin(), before.subdomains.end()));
 }
 
 /// All that stays is found: points at the same place, by a second search.
@@ -121,7 +127,7 @@ void check_all_found(const Mesh& before, const AdaptiveMesh& adaptive) {
 }  // namespace
 
 TEST_CASE("random domains follow random lengths over twenty generations") {
-  std::int64_t divided = 0;
+  std::int64_t divided = 0, joined = 0;
   for (int seed = 1; seed <= 4 / kFewer + 1; ++seed) {
     CAPTURE(seed);
     Random random(seed);
@@ -169,9 +175,11 @@ TEST_CASE("random domains follow random lengths over twenty generations") {
         if (const std::int32_t old = mesh.stayed_points()[i]; old >= 0) changed += marks[i] != last[old];
       CHECK(changed == 0);
       divided += mesh.report().divided;
+      joined += mesh.report().joined;
     }
   }
   CHECK(divided > 0);
+  CHECK(joined > 0);
 }
 
 TEST_CASE("generations do not depend on the number of threads") {
@@ -230,7 +238,7 @@ Summary summary_of(const Mesh& mesh, FieldPlace place, std::span<const double> v
 }  // namespace
 
 TEST_CASE("conserving transfer keeps integrals, bounds and constants") {
-  std::int64_t divided = 0;
+  std::int64_t divided = 0, joined = 0;
   for (int seed = 1; seed <= 5 / kFewer + 1; ++seed) {
     CAPTURE(seed);
     Random random(seed);
@@ -287,9 +295,11 @@ TEST_CASE("conserving transfer keeps integrals, bounds and constants") {
           changed += mesh.field("triangles")[t] != last[from];
       CHECK(changed == 0);
       divided += mesh.report().divided;
+      joined += mesh.report().joined;
     }
   }
   CHECK(divided > 0);
+  CHECK(joined > 0);
 }
 
 TEST_CASE("what is as it should be stays") {

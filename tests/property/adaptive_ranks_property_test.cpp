@@ -219,6 +219,7 @@ void check_as_whole(const Seen& seen, const Seen& last, const Seen& whole, const
   CHECK(seen.report.mended == whole.report.mended);
   CHECK(seen.report.remade == whole.report.remade);
   CHECK(seen.report.divided == whole.report.divided);
+  CHECK(seen.report.joined == whole.report.joined);
   CHECK(seen.report.scale == whole.report.scale);
   const bool some_came = seen.report.moved > 0;
   std::size_t wrong = 0;
@@ -239,7 +240,7 @@ void check_as_whole(const Seen& seen, const Seen& last, const Seen& whole, const
 }  // namespace
 
 TEST_CASE("generations and fields do not depend on the number of ranks") {
-  std::int64_t mended = 0, remade = 0, moved = 0, divided = 0;
+  std::int64_t mended = 0, remade = 0, moved = 0, divided = 0, joined = 0;
   for (int seed = 1; seed <= kSeeds + 1; ++seed) {
     CAPTURE(seed);
     Case given(seed, seed > kSeeds);
@@ -248,6 +249,7 @@ TEST_CASE("generations and fields do not depend on the number of ranks") {
       mended += seen.report.mended;
       remade += seen.report.remade;
       divided += seen.report.divided;
+      joined += seen.report.joined;
     }
     for (const std::int32_t count : {1, 2, 3, 8}) {
       CAPTURE(count);
@@ -272,6 +274,7 @@ TEST_CASE("generations and fields do not depend on the number of ranks") {
   CHECK(remade > 0);
   CHECK(moved > 0);
   CHECK(divided > 0);
+  CHECK(joined > 0);
 }
 
 TEST_CASE("a session that was saved goes on on any number of ranks as it would have") {

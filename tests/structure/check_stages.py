@@ -44,6 +44,7 @@ OF_A_STAGE = {
     "tests/mpi/mesh_on_ranks.cpp": "messages that arrive late, and moves at random",
     "tests/property/decompose_property_test.cpp": "cuts by themselves, and subdomains without presplit interfaces",
     "tests/property/further_cut_property_test.cpp": "cuts of subdomains by themselves, in the middle of refinement",
+    "tests/property/join_property_test.cpp": "joins of subdomains by themselves",
     "tests/property/migration_property_test.cpp": "subdomains that move in the middle of a slice",
     "tests/property/threads_property_test.cpp": "threads that take subdomains at every occasion, and ranks with crews",
     "tests/sim/domains.cpp": "domains of simulated ranks",

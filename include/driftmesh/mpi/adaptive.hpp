@@ -21,10 +21,10 @@ namespace driftmesh {
 /// and fields are those that AdaptiveMesh makes from the same input and options, bit for bit, on any number of ranks:
 /// refinement takes place in rounds, and what is decided for the whole mesh follows from what ranks tell each other.
 ///
-/// All functions but piece(), options(), field(), spent(), report(), what is old and what stayed are collective: all
-/// ranks call the same ones of the same object in the same order. What one rank throws all throw, naming it, and
-/// everything stays as it was; different calls are an Error on all ranks once each is in one. Messages travel on
-/// duplicates of the communicator, which must outlive the object.
+/// All functions but piece(), options(), field(), spent(), report(), what is old and what has become of it are
+/// collective: all ranks call the same ones of the same object in the same order. What one rank throws all throw,
+/// naming it, and everything stays as it was; different calls are an Error on all ranks once each is in one. Messages
+/// travel on duplicates of the communicator, which must outlive the object.
 ///
 /// The input is that of rank 0. All options must be the same on every rank; those for many ranks have no meaning, since
 /// subdomains stay where they are while they are refined. Every rank uses its own MeshOptions::size, which must behave
@@ -94,6 +94,8 @@ class DistributedAdaptiveMesh {
   [[nodiscard]] const std::vector<std::int32_t>& stayed_points() const;
   /// The same for triangles: those that have the same corners.
   [[nodiscard]] const std::vector<std::int32_t>& stayed_triangles() const;
+  /// As of AdaptiveMesh, for the subdomains of all ranks.
+  [[nodiscard]] std::vector<std::vector<std::int32_t>> parents() const;
   /// Numbers of subdomains are those of all ranks, times those of this one.
   [[nodiscard]] const AdaptReport& report() const;
 

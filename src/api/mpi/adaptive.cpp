@@ -157,6 +157,10 @@ const std::vector<std::int32_t>& DistributedAdaptiveMesh::stayed_triangles() con
   return impl_->core.session().stayed_triangles();
 }
 
+std::vector<std::vector<std::int32_t>> DistributedAdaptiveMesh::parents() const {
+  return impl_->core.session().parents();
+}
+
 void DistributedAdaptiveMesh::keep_old(bool keep) {
   impl_->core.session().keep_old(keep);
 }
