@@ -46,6 +46,7 @@ SavedHead head_from(const Bytes& bytes) {
   reader.value(head.options);
   reader.value(head.generation);
   reader.value(head.shares);
+  if (head.shares < 1) throw Error("it does not say of how many subdomains one has the mean");
   for (auto left = reader.value<std::uint64_t>(); left > 0; --left) {
     Field& field = head.fields[reader.text()];
     reader.value(field.place);

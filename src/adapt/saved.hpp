@@ -19,7 +19,7 @@ namespace driftmesh::adapt {
 /// What a file of a session has besides its parts (docs/file-formats.md).
 struct SavedHead {
   RunPlan plan;             ///< without a size field
-  std::int32_t shares = 0;  ///< see Dividing
+  std::int32_t shares = 0;  ///< see granularity.hpp; at least 1
   Pslg pslg;
   AdaptiveOptions options;
   std::int64_t generation = 0;

@@ -261,6 +261,7 @@ void ThreadRun::save(const Request& request, Watch& watch) {
   watch.writing(path);
   adapt::SavedHead head;
   head.plan = lasting_plan(request);
+  head.shares = static_cast<std::int32_t>(head.plan.decomposition.size());
   head.pslg = order_.pslg;
   ByteWriter rasters;
   order_.rasters.write(rasters);
