@@ -167,7 +167,7 @@ void follow(Way& way, const std::vector<std::vector<std::int32_t>>& parents, con
 void advance(Way& way, const adapt::Loads& loads, const Counts& counts, const AdaptReport& report) {
   const std::size_t ranks = loads.speeds.size();
   const double each_new = report.refine / std::max(1.0, counts.all_made);
-  const double each = (report.lengths + report.assemble + report.transfer) / counts.all;
+  const double each = (report.lengths + report.join + report.assemble + report.transfer) / counts.all;
   way.total += slowest(way.holders, ranks, [&](SubdomainId s) {
     return each_new * counts.made[s] + each * counts.triangles[s] + report.divide * counts.divided[s];
   });

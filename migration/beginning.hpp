@@ -18,8 +18,9 @@ struct Beginning {
   const SizeField* size = nullptr;  ///< in place of the bounds'; asked by one thread at a time. Not owned
   /// Its mesh so far; null: it is made from its outline.
   std::shared_ptr<const SubdomainMesh> mesh{};
-  const Lengths* lengths = nullptr;              ///< those that `size` has at the vertices of the mesh; not owned
-  std::vector<TriangleId> open{};                ///< triangles of the mesh that may miss their bounds
+  const Lengths* lengths =
+      nullptr;                     ///< those that `size` has at the vertices of the mesh; null: it is asked. Not owned
+  std::vector<TriangleId> open{};  ///< triangles of the mesh that may miss their bounds
   std::vector<SplitPoint<GlobalRootId>> told{};  ///< points on its border that the mesh lacks
 };
 

@@ -25,13 +25,19 @@ RefinerState rest_of(const DormantBody& dormant, const Triangulation& mesh, cons
 }
 
 /// The state of a refiner that has finished a mesh but for triangles that are still open.
-RefinerState beginning_of(const Beginning& begin) {
+RefinerState beginning_of(const Beginning& begin, const SizeBounds& sizes) {
   RefinerState state;
   state.stage = begin.open.empty() ? RefinerState::Stage::kDone : RefinerState::Stage::kRest;
   state.next_segment = begin.mesh->mesh.subsegments.next_id();
   state.sweep.end();
   for (const TriangleId t : begin.open) state.sweep.visit_again(t);
-  if (begin.lengths != nullptr) state.size = *begin.lengths;
+  if (begin.lengths != nullptr) {
+    state.size = *begin.lengths;
+  } else if (sizes.by_place()) {
+    const Triangulation& mesh = begin.mesh->mesh;
+    for (const VertexId v : ids_of(mesh.points))
+      state.size.push_back(mesh.origin[v] == kDeleted ? kNoBound : sizes.length_at(mesh.points[v]));
+  }
   return state;
 }
 
@@ -298,7 +304,8 @@ void Subdomain::make_body() {
   if (begin != nullptr && begin->mesh) {
     const SubdomainMesh& mesh = *begin->mesh;
     const auto triangles = static_cast<double>(mesh.mesh.live_triangles());
-    body_ = std::make_unique<Body>(SubdomainState::Body{mesh, beginning_of(*begin), triangles}, bounds());
+    body_ = std::make_unique<Body>(SubdomainState::Body{mesh, beginning_of(*begin, SizeBounds(bounds())), triangles},
+                                   bounds());
     return;
   }
   body_ = std::make_unique<Body>(subdomain_triangulation(*context_->decomposition, id()), bounds());

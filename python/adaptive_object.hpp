@@ -232,6 +232,7 @@ class AdaptiveObject {
   report["scale"] = r.scale;
   report["imbalance"] = r.imbalance;
   report["lengths"] = r.lengths;
+  report["join"] = r.join;
   report["refine"] = r.refine;
   report["assemble"] = r.assemble;
   report["transfer"] = r.transfer;

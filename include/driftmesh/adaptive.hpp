@@ -61,6 +61,7 @@ struct AdaptReport {
   double imbalance = 1;         ///< time of the slowest rank over the mean, as forecast, for what the caller does next
   // Times in seconds.
   double lengths = 0;   ///< limiting and comparing lengths
+  double join = 0;      ///< joining subdomains, and giving others new numbers
   double refine = 0;    ///< making the subdomains
   double assemble = 0;  ///< putting them together
   double transfer = 0;  ///< fields, and what stayed

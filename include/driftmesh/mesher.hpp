@@ -13,7 +13,8 @@ namespace driftmesh {
 /// The mesh is constrained Delaunay, by exact predicates, and covers every segment of the repaired input. No triangle
 /// exceeds the bounds on area and size, and no angle is smaller than options.min_angle, except where
 /// small angles of the input or the precision of doubles force smaller ones (docs/guarantees.md). The same input and
-/// options give the same mesh, bit for bit, on every machine with IEEE arithmetic.
+/// options give the same mesh, bit for bit, on every machine with IEEE arithmetic; but what is computed by sin, exp and
+/// their like, as generated domains and sizes by expressions may be, can differ with the C library.
 ///
 /// May be called from several threads concurrently. Throws InputError for an input that cannot be repaired or has no
 /// room for a triangle that the bounds require, Error for options that are out of range or do not apply, LimitError,

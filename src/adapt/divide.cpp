@@ -58,29 +58,10 @@ std::vector<FurtherCut> cuts_of(const Generation& present, std::vector<std::pair
   return cuts;
 }
 
-/// What is asked of parts once more, at the vertices that they have now.
-Wanted wanted_of(const Generation& present, const Dividing& how, const Sizes& sizes, Ranks& ranks) {
-  Wanted wanted{.lengths = LengthsOfParts(present.parts.size()), .between = how.wanted.between, .inside = sizes.all()};
-  ranks.agree([&] {
-    in_turns(present.here.size(), to_index(how.threads), [&](std::size_t i) {
-      const SubdomainId s = present.here[i];
-      const SubdomainMesh& part = *present.parts[s].mesh;
-      if (&part == how.before.parts[s].mesh.get()) {
-        wanted.lengths[s] = how.wanted.lengths[s];
-        return;
-      }
-      for (const VertexId v : ids_of(part.mesh.points))
-        wanted.lengths[s].push_back(part.mesh.origin[v] == kDeleted ? kNoBound
-                                                                    : sizes.all()[s]->edge_length(part.mesh.points[v]));
-    });
-  });
-  return wanted;
-}
-
 /// Makes those that are cut anew, with the separators inside.
 Parts remade(const Generation& present, const IdVector<SubdomainId, double>& asked, const CutFurther& cut,
              const std::vector<FurtherCut>& cuts, const Dividing& how, const Sizes& sizes, Ranks& ranks) {
-  const Wanted wanted = wanted_of(present, how, sizes, ranks);
+  const Wanted wanted{.lengths = {}, .between = how.wanted.between, .inside = sizes.all()};
   IdVector<SubdomainId, Fate> fates(present.parts.size(), Fate::kKeep);
   IdVector<SubdomainId, Demand> demands(present.parts.size());
   for (const FurtherCut& one : cuts) {

@@ -110,7 +110,7 @@ class Beginnings {
     }
     if (fates_[s] == Fate::kRemake) return;
     beginning.mesh = present_.parts[s].mesh;
-    beginning.lengths = &wanted_.lengths[s];
+    if (wanted_.inside.empty()) beginning.lengths = &wanted_.lengths[s];
     if (fates_[s] == Fate::kKeep) return;
     Mended mended = mend(part(s), *present_.parts[s].made_for, wanted_.lengths[s], bounds_, keep_[s]);
     beginning.mesh = std::move(mended.mesh);

@@ -222,7 +222,7 @@ void Session::advance(const std::function<Wanted()>& want, const Means& means, c
   const Basis basis = joined ? joined->basis() : before;
   const Generation& from = basis.present.generation;
   report.joined = static_cast<std::int32_t>(present_.parts.size() - from.parts.size());
-  report.divide = stage.seconds();
+  report.join = stage.seconds();
 
   stage = {};
   const IdVector<SubdomainId, Fate> fates =
@@ -236,7 +236,7 @@ void Session::advance(const std::function<Wanted()>& want, const Means& means, c
   const Dividing dividing{basis.plan, shares_, from, basis.wanted, threads, hooks};
   std::optional<Divided> divided = divide_heavy(parts, dividing, ranks);
   if (divided) parts = std::move(divided->parts);
-  report.divide += stage.seconds();
+  report.divide = stage.seconds();
 
   stage = {};
   Generation next =
