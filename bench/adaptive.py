@@ -152,11 +152,17 @@ def beside_freefem(options):
 ASIDE = (0.2, 0.3)  # what widens around the middle would load all ranks alike
 
 
-def first_on_ranks(communicator, shortest, subdomains):
+def size_of_ring(shortest, generation):
+    """By lengths on a mesh that has them already."""
     start = driftmesh.mesh(square(), max_area=1e-3, threads=1)
     for _ in range(6):
-        size = driftmesh.size_on_mesh(start, ring(start.points, shortest, 0, ASIDE), gradation=GROWTH)
+        size = driftmesh.size_on_mesh(start, ring(start.points, shortest, generation, ASIDE), gradation=GROWTH)
         start = driftmesh.mesh(square(), size=size, size_resolution=1, threads=1)
+    return size, start
+
+
+def first_on_ranks(communicator, shortest, subdomains):
+    size, _ = size_of_ring(shortest, 0)
     return driftmesh.DistributedAdaptiveMesh(communicator, square(), size=size, size_resolution=1, threads=1, gradation=GROWTH,
                                              subdomains={"count": subdomains} if subdomains else {})
 
@@ -192,6 +198,7 @@ def follow_on_ranks(communicator, shortest, subdomains, generations):
                      "moved": sum(load for s, (rank, load) in after.items() if rank != home[s]) + sum(gathered.values()),
                      "above": sum(max(0, load - 1.05 * mean) for load in stay)})
         before = after
+    rows[-1]["denser"] = rows[-1]["triangles"] / len(size_of_ring(shortest, generations)[1].triangles)
     return rows
 
 
@@ -205,10 +212,11 @@ def worker(options):
 
 def on_ranks(options):
     table = Table("adaptive-ranks", f"The load of a solver on ranks, {options.generations} generations",
-                  ["ranks", "shortest", "triangles", "subdomains", "fences with moves", "if nothing moved", "largest over mean", "moved", "above", "moved over above"],
+                  ["ranks", "shortest", "triangles", "denser", "subdomains", "fences with moves", "if nothing moved", "largest over mean", "moved", "above", "moved over above"],
                   f"Around {ASIDE}. The solver takes the same time for each triangle. Largest load of a rank over the mean at the worst fence, as it is and as it would be if what "
                   "that fence moved had stayed. Moved: triangles at all fences together; above: sums over ranks of the load beyond 1.05 of the mean before that. "
-                  "What is joined is first brought to the rank of the largest of its parts, which counts as moved.")
+                  "What is joined is first brought to the rank of the largest of its parts, which counts as moved. Denser: triangles at the end, in those of a mesh in one "
+                  "piece that is made anew.")
     lengths = options.length or [0.002, 0.001]
     for ranks in options.ranks:
         said = subprocess.run(["mpirun", "--oversubscribe", "-n", str(ranks), sys.executable, __file__, "--worker", "--generations",
@@ -217,7 +225,7 @@ def on_ranks(options):
                               check=True, capture_output=True, text=True).stdout
         for shortest, rows in zip([length for length in lengths for _ in options.subdomains], json.loads(said)):
             moved, above = (sum(row[key] for row in rows) for key in ("moved", "above"))
-            table.add(ranks, shortest, rows[-1]["triangles"], rows[-1]["subdomains"], sum(row["moved"] > 0 for row in rows),
+            table.add(ranks, shortest, rows[-1]["triangles"], f"{rows[-1]['denser']:.3f}", rows[-1]["subdomains"], sum(row["moved"] > 0 for row in rows),
                       f"{max(row['before'] for row in rows):.3f}", f"{max(row['after'] for row in rows):.3f}", moved, round(above),
                       f"{moved / above:.2f}" if above else "")
     return table
@@ -246,7 +254,7 @@ def main():
     parser.add_argument("--repetitions", type=int, default=3, help="beside FreeFEM")
     parser.add_argument("--freefem", action="store_true", help="compare with FreeFEM's adaptmesh instead")
     parser.add_argument("--ranks", type=int, nargs="+", metavar="N", help="on so many ranks instead")
-    parser.add_argument("--subdomains", type=int, nargs="+", default=[0, 400], metavar="N", help="of ranks; 0: by default")
+    parser.add_argument("--subdomains", type=int, nargs="+", default=[0, 120, 400], metavar="N", help="of ranks; 0: by default")
     parser.add_argument("--simulator", metavar="PROGRAM", help="driftmesh_bench_adaptive_ranks: on simulated ranks instead")
     parser.add_argument("--worker", action="store_true", help=argparse.SUPPRESS)  # one of these ranks
     parser.add_argument("--program", default=PROJECT / "build/release/driftmesh", help="says which compiler it was")
