@@ -51,9 +51,13 @@ LengthsOfParts as_lengths(const Generation& generation, const std::vector<double
   return lengths;
 }
 
-/// One part in the new decomposition, from those that it consists of.
-std::pair<Part, Former> glued(const Parts& present, std::vector<SubdomainId> members, const JoinedSubdomains& joined,
-                              SubdomainId s) {
+/// A part in the new decomposition.
+struct NewPart {
+  Part part;
+  Former former;
+};
+
+NewPart glued(const Parts& present, std::vector<SubdomainId> members, const JoinedSubdomains& joined, SubdomainId s) {
   if (members.size() == 1) {
     Part part = present[members.front()];
     const Renaming renaming = renaming_of(*part.mesh, joined);
@@ -86,8 +90,11 @@ Holding glued(const Held& present, const JoinedSubdomains& joined,
   IdVector<SubdomainId, Former> former(members.size());
   ranks.agree([&] {
     for (const SubdomainId s : ids_of(members))
-      if (present.generation.is_here(members[s].front()))
-        std::tie(parts[s], former[s]) = glued(present.generation.parts, members[s], joined, s);
+      if (present.generation.is_here(members[s].front())) {
+        NewPart made = glued(present.generation.parts, members[s], joined, s);
+        parts[s] = std::move(made.part);
+        former[s] = std::move(made.former);
+      }
   });
   return renumbered(present, assemble(std::move(parts)), former);
 }
