@@ -91,9 +91,10 @@ Message decode(Rank sender, std::span<const std::byte> bytes, const WireLimits& 
 
 Traffic traffic_of(const Message& message) {
   if (std::holds_alternative<SplitBatch>(message) || std::holds_alternative<HandOff>(message)) return Traffic::kWork;
-  if (std::holds_alternative<LocationUpdate>(message) || std::holds_alternative<Advice>(message))
-    return Traffic::kControl;
-  return Traffic::kDetection;
+  if (std::holds_alternative<Token>(message) || std::holds_alternative<Terminate>(message) ||
+      std::holds_alternative<Finish>(message))
+    return Traffic::kDetection;
+  return Traffic::kControl;
 }
 
 Traffic traffic_of(Rank sender, std::span<const std::byte> bytes) {

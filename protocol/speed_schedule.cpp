@@ -14,10 +14,10 @@ SpeedSchedule::SpeedSchedule(const std::vector<SpeedChange>& changes) {
     if (!(change.at >= 0) || !std::isfinite(change.at) || !(change.factor >= 0) || !std::isfinite(change.factor))
       throw Error("speeds change at finite times from 0 on, to finite factors from 0 on, not at " +
                   std::to_string(change.at) + " to " + std::to_string(change.factor));
-    if (change.at == 0)
-      steps_.back().factor = change.factor;
-    else if (change.at > steps_.back().at)
+    if (change.at > steps_.back().at)
       steps_.push_back(change);
+    else if (change.at == 0 && steps_.size() == 1)
+      steps_.back().factor = change.factor;
     else
       throw Error("changes of a speed must be in the order of time: " + std::to_string(change.at) + " follows " +
                   std::to_string(steps_.back().at));

@@ -36,7 +36,7 @@ void Termination::receive(Rank source, const Terminate& terminate) {
 
 void Termination::receive(Rank source, const Finish&) {
   if (phase_ == Phase::kWorking) throw ProtocolError(source, "finish before termination");
-  if (phase_ == Phase::kDraining) finish_due_ = true;
+  finish_due_ = true;
 }
 
 void Termination::advance(bool passive, std::vector<Outgoing>& out) {
@@ -101,7 +101,6 @@ void Termination::answer_pass(std::vector<Outgoing>& out) {
 
 void Termination::finish(std::vector<Outgoing>& out) {
   phase_ = Phase::kFinished;
-  finish_due_ = false;
   const TreePlace& place = pass_.place();
   for (std::size_t i = 0; i < place.children(); ++i) out.push_back({place.child(i), Finish{}});
 }

@@ -74,7 +74,7 @@ class Wave {
   bool receive(Rank source, const Answer& answer) {
     if (const auto child = place_.child_number(source)) {
       if (answer.round > round_) not_due(source, answer);
-      if (answer.round == round_ && asked_) gather(*child, answer);
+      if (answer.round == round_) gather(*child, answer);
       return false;
     }
     if (place_.is_root() || source != place_.parent() || answer.round > round_ + 1) not_due(source, answer);

@@ -1,8 +1,13 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <set>
+#include <string>
 
 #include "protocol/random_message.hpp"
+#include "protocol/wire.hpp"
 #include "support/id_literals.hpp"
 
 using namespace driftmesh;
@@ -111,6 +116,75 @@ TEST_CASE("errors say what is wrong") {
   CHECK(error_of(encode(SplitBatch{{{1_sub, 1, 1_rank, 0, {{1_root, 0}}}}})) ==
         "message from rank 5: split path 0 is invalid, or deeper than 60");
   CHECK(error_of({}) == "message from rank 5: it ends too early");
+}
+
+TEST_CASE("what is in transit when the work ends is told by the type of a message") {
+  const auto check = [](const Message& message, Traffic traffic) {
+    CHECK(traffic_of(message) == traffic);
+    CHECK(traffic_of(kSender, encode(message)) == traffic);
+  };
+  check(SplitBatch{}, Traffic::kWork);
+  check(HandOff{}, Traffic::kWork);
+  check(LocationUpdate{}, Traffic::kControl);
+  check(Advice{}, Traffic::kControl);
+  check(Advice{9, {}}, Traffic::kControl);
+  check(Abandon{}, Traffic::kControl);
+  check(Token{}, Traffic::kDetection);
+  check(Terminate{}, Traffic::kDetection);
+  check(Finish{}, Traffic::kDetection);
+}
+
+TEST_CASE("values are read up to their bounds, and not beyond") {
+  enum class Choice : std::uint8_t { kFirst, kSecond, kLast };
+  // What comes back, or nothing where it is refused; `write` and `read` are calls of the two sides.
+  const auto passes = [](const auto& write, const auto& read) {
+    WireWriter writer;
+    write(writer);
+    const Bytes bytes = writer.take();
+    WireReader reader(bytes, kLimits);
+    try {
+      read(reader);
+      reader.end();
+      return true;
+    } catch (const Error&) {
+      return false;
+    }
+  };
+  const auto id_passes = [&](std::int32_t number, auto member, auto id) {
+    return passes([&](WireWriter& w) { w.number(number); }, [&](WireReader& r) { (r.*member)(id); });
+  };
+  for (const std::int32_t number : {INT32_MIN, -1, 0, 6, 7, 8, 99, 100, 101, 999, 1000, 1001, INT32_MAX}) {
+    CAPTURE(number);
+    CHECK(id_passes(number, &WireReader::rank, Rank{}) == (number >= 0 && number < 7));
+    CHECK(id_passes(number, &WireReader::subdomain, SubdomainId{}) == (number >= 0 && number < 100));
+    CHECK(id_passes(number, &WireReader::root, GlobalRootId{}) == (number >= 0 && number < 1000));
+  }
+  for (int byte = 0; byte < 256; ++byte) {
+    const auto write = [&](WireWriter& w) { w.number(static_cast<std::uint8_t>(byte)); };
+    Choice choice{};
+    CHECK(passes(write, [&](WireReader& r) { r.choice(choice, Choice::kLast); }) == (byte <= 2));
+    if (byte <= 2) CHECK(static_cast<int>(choice) == byte);
+    bool flag = byte == 0;
+    CHECK(passes(write, [&](WireReader& r) { r.flag(flag); }) == (byte <= 1));
+    if (byte <= 1) CHECK(flag == (byte == 1));
+  }
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double value : {0.0, 5e-324, 1.5, 1e308, -5e-324, -1.0, infinity, -infinity, std::nan("")}) {
+    CAPTURE(value);
+    double amount = -1;
+    const bool passed = passes([&](WireWriter& w) { w.amount(value); }, [&](WireReader& r) { r.amount(amount); });
+    CHECK(passed == (value >= 0 && value < infinity));
+    if (passed) CHECK(amount == value);
+  }
+  for (int depth = 0; depth < 64; ++depth) {
+    CAPTURE(depth);
+    for (const dyadic::Path path : {dyadic::Path{1} << depth, (dyadic::Path{2} << depth) - 1}) {
+      dyadic::Path read = 0;
+      const bool passed = passes([&](WireWriter& w) { w.path(path); }, [&](WireReader& r) { r.path(read); });
+      CHECK(passed == (depth <= dyadic::kMaxDepth));
+      if (passed) CHECK(read == path);
+    }
+  }
 }
 
 TEST_CASE("a length allocates no memory before its bytes are known to exist") {

@@ -111,6 +111,30 @@ TEST_CASE("split sets agree whatever the order and the repetitions") {
   }
 }
 
+TEST_CASE("each part of a digest counts every path, in any order") {
+  std::mt19937_64 random(5);
+  std::set<std::uint64_t> sums, toggles;
+  for (const int size : {0, 1, 2, 7, 40}) {
+    CAPTURE(size);
+    std::vector<SplitDigest> each;
+    SplitDigest whole;
+    for (int k = 0; k < size; ++k) {
+      const dyadic::Path path = random_path(random, dyadic::kMaxDepth);
+      whole.add(path);
+      each.emplace_back().add(path);
+      CHECK(each.back().count == 1);
+      CHECK(each.back().sum == each.back().toggle);  // the hash of the only path
+    }
+    SplitDigest expected{static_cast<std::uint64_t>(size), 0, 0};
+    for (const SplitDigest& one : each) expected.sum += one.sum, expected.toggle ^= one.toggle;
+    CHECK(whole == expected);
+    sums.insert(whole.sum);
+    toggles.insert(whole.toggle);
+  }
+  CHECK(sums.size() == 5);
+  CHECK(toggles.size() == 5);
+}
+
 // The history of a moving subdomain: its owner in each epoch. Every rank learns part of it, in any order; the rules
 // must deliver a message from anywhere to the subdomain's current rank.
 TEST_CASE("forwarding reaches the owner, epochs rise along the way, and hops are bounded") {

@@ -151,6 +151,47 @@ TEST_CASE("all others are told that a rank gives up the run, and nobody else") {
   CHECK(told == std::vector<Rank>{0_rank, 2_rank});
 }
 
+TEST_CASE("a rank at work answers a probe once a subdomain has come, and an idle one not while a group waits for one") {
+  Ranks ranks;
+  const auto tokens_of = [&](Rank r) {
+    int tokens = 0;
+    for (const Outgoing& o : ranks[r].take_outgoing()) tokens += std::holds_alternative<Token>(o.message);
+    return tokens;
+  };
+  ranks[0_rank].send_split(2_sub, {4_root, 1});
+  ranks[0_rank].rest(false);
+  ranks.carry(0_rank, ranks.only(0_rank));
+  CHECK(tokens_of(2_rank) == 0);  // it has handled a SPLIT, and is at work
+  ranks[1_rank].hand_off(1_sub, 2_rank, Bytes(1));
+  const Outgoing move = ranks.only(1_rank);
+  ranks[2_rank].receive(0_rank, SplitBatch{{{1_sub, 1, 0_rank, 1, {{5_root, 1}}}}});
+  REQUIRE(ranks[2_rank].held_groups() == 1);
+  ranks[2_rank].rest(true);
+  CHECK(tokens_of(2_rank) == 0);
+  ranks.carry(1_rank, move);
+  CHECK(tokens_of(2_rank) == 1);
+}
+
+TEST_CASE("control messages that have come do not delay the end, and what they say afterward is not heard") {
+  Ranks ranks;
+  ranks[1_rank].advise(0_rank, LocationUpdate{2_sub, 2_rank, 0});
+  ranks[0_rank].advise(2_rank, Advice{1, Bytes(2)});
+  ranks[2_rank].abandon();
+  int carried = 0;
+  for (bool moved = true; moved; ++carried) {
+    REQUIRE(carried < 100);
+    moved = false;
+    for (const Rank r : first_ids<Rank>(3)) {
+      ranks[r].rest(true);
+      for (const Outgoing& outgoing : ranks[r].take_outgoing()) ranks.carry(r, outgoing), moved = true;
+    }
+  }
+  for (const Rank r : first_ids<Rank>(3)) {
+    CHECK(ranks[r].finished());
+    CHECK(!ranks[r].receive(0_rank, Advice{1, Bytes(2)}).advice);
+  }
+}
+
 TEST_CASE("who misled a SPLIT is told where its subdomain is, and only who does not know") {
   Ranks ranks;
   ranks[1_rank].hand_off(1_sub, 2_rank, Bytes(1));

@@ -2,6 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -106,6 +110,58 @@ TEST_CASE("the end of work is detected within two more probes") {
   settle(all);
   for (const auto& rank : all) CHECK(rank.phase() == Phase::kFinished);
   CHECK(all[0_rank].rounds() == 2);
+}
+
+TEST_CASE("the tree of ranks reaches each rank once, and each knows its own children") {
+  for (const std::int32_t arity : {1, 2, 3, 64})
+    for (const std::int32_t ranks : {1, 2, 3, 4, 7, 8, 65, 66, 130}) {
+      CAPTURE(arity);
+      CAPTURE(ranks);
+      IdVector<Rank, int> reached(static_cast<std::size_t>(ranks), 0);
+      for (const Rank r : ids_of(reached)) {
+        const TreePlace place(r, ranks, arity);
+        CHECK(place.is_root() == (r == 0_rank));
+        CHECK(place.children() <= static_cast<std::size_t>(arity));
+        std::set<Rank> below;
+        for (std::size_t i = 0; i < place.children(); ++i) {
+          const Rank child = place.child(i);
+          REQUIRE(reached.has(child));
+          ++reached[child];
+          below.insert(child);
+          CHECK(place.child_number(child) == i);
+          CHECK(TreePlace(child, ranks, arity).parent() == r);
+        }
+        for (const Rank other : ids_of(reached))
+          if (below.count(other) == 0) CHECK(!place.child_number(other));
+      }
+      CHECK(std::count(reached.begin(), reached.end(), 1) == ranks - 1);
+      CHECK(reached[0_rank] == 0);
+    }
+}
+
+TEST_CASE("a wave adds up each answer to its question once, whatever copies of older ones come") {
+  Wave<Token> wave(0_rank, 3, 2);
+  std::vector<Outgoing> out;
+  for (std::uint64_t round = 1; round <= 4; ++round) {
+    CAPTURE(round);
+    wave.ask();
+    CHECK(wave.round() == round);
+    wave.relay(out);
+    wave.relay(out);
+    CHECK(std::exchange(out, {}).size() == 2);
+    for (const Rank r : {2_rank, 1_rank, 2_rank, 1_rank}) {
+      for (std::uint64_t old = 1; old < round; ++old) CHECK(!wave.receive(r, Token{old, 1000, true}));
+      CHECK(wave.due() == (wave.so_far().count == 30));
+      CHECK(!wave.receive(r, Token{round, r == 1_rank ? 10 : 20, false}));
+    }
+    CHECK_THROWS_AS(wave.receive(1_rank, Token{round + 1, 0, false}), ProtocolError);
+    CHECK_THROWS_AS(wave.receive(0_rank, Token{round, 0, false}), ProtocolError);
+    CHECK_THROWS_AS(wave.receive(3_rank, Token{round, 0, false}), ProtocolError);
+    REQUIRE(wave.due());
+    CHECK(wave.close(Token{round, 5, false}) == Token{round, 35, false});
+    CHECK(!wave.asked());
+    CHECK(!wave.due());
+  }
 }
 
 TEST_CASE("no termination while a message is under way or a rank is busy") {
