@@ -1,11 +1,15 @@
 #include <doctest/doctest.h>
 
+#include <cstdint>
 #include <random>
 #include <set>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "balancer/snapshot/codec.hpp"
 #include "protocol/protocol_error.hpp"
+#include "protocol/wire.hpp"
 #include "support/id_literals.hpp"
 
 using namespace driftmesh;
@@ -18,48 +22,69 @@ namespace {
 constexpr Rank kSender{5};
 constexpr protocol::WireLimits kLimits{.ranks = 7, .subdomains = 100, .roots = 0};
 
-/// Messages of every type, with numbers over their whole range.
+/// Messages of every type, with numbers over their whole range, in each member: taken apart, so that one more member
+/// does not compile.
 class RandomMessage {
  public:
   explicit RandomMessage(std::uint64_t seed) : random_(seed) {}
 
   Message any() {
-    switch (below(std::variant_size_v<Message>)) {
-      case 0: {
-        LoadReport report{number(), number(), amount(), {}, amount(), amount()};
-        for (auto n = below(5); n > 0; --n) report.loads.push_back({subdomain(), number(), amount(), random_()});
-        return report;
-      }
-      case 1: {
-        Plan plan{number(), moves(), {}};
-        for (auto n = below(5); n > 0; --n) plan.ask.push_back(rank());
-        return plan;
-      }
-      case 2:
-        return LoadNews{number(), amount(), amount(), amount(), amount()};
-      case 3:
-        return WorkRequest{rank(), number(), amount(), amount(), number(), amount()};
-      case 4:
-        return WorkAnswer{number(), moves()};
-      default: {
-        Admission step{number(), static_cast<Admission::Stage>(below(3)), {}};
-        for (auto n = below(5); n > 0; --n) step.guests.push_back({subdomain(), amount()});
-        return step;
-      }
-    }
+    Message message = protocol::empty_message<Message>(below(std::variant_size_v<Message>));
+    std::visit([&](auto& m) { fill(m); }, message);
+    return message;
   }
 
  private:
-  std::uint64_t below(std::uint64_t n) { return random_() % n; }
-  Rank rank() { return static_cast<Rank>(below(to_index(kLimits.ranks))); }
-  SubdomainId subdomain() { return static_cast<SubdomainId>(below(to_index(kLimits.subdomains))); }
-  std::uint32_t number() { return static_cast<std::uint32_t>(random_()); }
-  double amount() { return static_cast<double>(random_()) / 3; }
-  std::vector<Move> moves() {
-    std::vector<Move> result;
-    for (auto n = below(5); n > 0; --n) result.push_back({subdomain(), rank()});
-    return result;
+  void fill(LoadReport& m) {
+    auto& [round, plan, speed, loads, doubt, unlisted, free_memory] = m;
+    set(round, plan, speed, loads, doubt, unlisted, free_memory);
   }
+  void fill(ReportedLoad& m) {
+    auto& [subdomain, epoch, remaining, bytes] = m;
+    set(subdomain, epoch, remaining, bytes);
+  }
+  void fill(Plan& m) {
+    auto& [round, moves, ask] = m;
+    set(round, moves, ask);
+  }
+  void fill(Move& m) {
+    auto& [subdomain, destination] = m;
+    set(subdomain, destination);
+  }
+  void fill(LoadNews& m) {
+    auto& [round, remaining, spare, speed, doubt, free_memory] = m;
+    set(round, remaining, spare, speed, doubt, free_memory);
+  }
+  void fill(WorkRequest& m) {
+    auto& [thief, round, remaining, speed, rivals, doubt, free_memory, horizon] = m;
+    set(thief, round, remaining, speed, rivals, doubt, free_memory, horizon);
+  }
+  void fill(WorkAnswer& m) {
+    auto& [round, moves] = m;
+    set(round, moves);
+  }
+  void fill(Admission::Guest& m) {
+    auto& [subdomain, triangles] = m;
+    set(subdomain, triangles);
+  }
+  void fill(Admission& m) {
+    auto& [round, stage, guests] = m;
+    set(round, stage, guests);
+  }
+
+  void set(auto&... members) { (fill(members), ...); }
+  template <class T>
+  void fill(std::vector<T>& items) {
+    items.resize(below(5));
+    for (T& item : items) fill(item);
+  }
+  void fill(Rank& r) { r = static_cast<Rank>(below(to_index(kLimits.ranks))); }
+  void fill(SubdomainId& s) { s = static_cast<SubdomainId>(below(to_index(kLimits.subdomains))); }
+  void fill(Admission::Stage& stage) { stage = static_cast<Admission::Stage>(below(3)); }
+  void fill(std::uint32_t& number) { number = static_cast<std::uint32_t>(random_()); }
+  void fill(std::uint64_t& number) { number = random_(); }
+  void fill(double& amount) { amount = static_cast<double>(random_()) / 3; }
+  std::uint64_t below(std::uint64_t n) { return random_() % n; }
 
   std::mt19937_64 random_;
 };
@@ -148,7 +173,9 @@ TEST_CASE("errors about advice say what is wrong") {
   CHECK(error_of(encode(Plan{1, {{100_sub, 1_rank}}, {}})) == "message from rank 5: subdomain 100 is outside 0 .. 99");
   CHECK(with(Admission{1, Admission::Stage::kReturn, {}}, 4, 3) == "message from rank 5: choice 3 does not exist");
   CHECK(error_of(encode(Plan{1, {}, {7_rank}})) == "message from rank 5: rank 7 is outside 0 .. 6");
-  CHECK(error_of({6, {}}) == "message from rank 5: it is advice on the unknown topic 6");
+  for (const int topic : {6, 7, 255})
+    CHECK(error_of({static_cast<std::uint8_t>(topic), {}}) ==
+          "message from rank 5: it is advice on the unknown topic " + std::to_string(topic));
   CHECK(error_of({0, {}}) == "message from rank 5: it ends too early");
 }
 

@@ -91,6 +91,62 @@ TEST_CASE("of subdomains started elsewhere nothing is learned") {
   CHECK(experience.ratio(true) == 1);
 }
 
+TEST_CASE("the time of a subdomain is that of all slices since it last began") {
+  const auto variation = [](const auto& work_on_first) {
+    Experience experience;
+    work_on_first(experience);
+    experience.finished(1_sub, true, 1000, 1000);
+    finish(experience, true, 1000, 1000, 2);
+    return experience.variation();
+  };
+  const double at_once = variation([](Experience& e) { e.worked(1_sub, 6, true); });
+  CHECK(variation([](Experience& e) {
+          e.worked(1_sub, 1, true);
+          e.worked(2_sub, 7, true);
+          e.worked(1_sub, 3, false);
+          e.worked(1_sub, 2, false);
+        }) == doctest::Approx(at_once));
+  CHECK(variation([](Experience& e) {
+          e.worked(1_sub, 50, true);
+          e.worked(1_sub, 4, true);
+          e.worked(1_sub, 2, false);
+        }) == doctest::Approx(at_once));
+  // Paces 6 and 2, of mean 4, deviate by half of it; two subdomains that vary by a tenth are supposed.
+  CHECK(at_once == doctest::Approx(std::sqrt((2 * 0.01 + 2 * 0.25) / 4)));
+}
+
+TEST_CASE("a start takes as long as some triangles: small subdomains are no slower than they should be") {
+  Experience experience(400);
+  for (const double forecast : {100.0, 1000.0, 5000.0, 20000.0})
+    finish(experience, forecast < 2000, forecast, forecast, (400 + forecast) * 1e-6);
+  CHECK(experience.variation() == doctest::Approx(std::sqrt(2 * 0.01 / 6)));
+  CHECK(experience.rest(true, 5000, 0) == doctest::Approx(5400));
+  CHECK(experience.rest(true, 5000, 100) == doctest::Approx(4900));
+}
+
+TEST_CASE("what took no time, or was to have no triangles, says nothing") {
+  Experience experience;
+  finish(experience, true, 1000, 3000, 0);
+  finish(experience, true, 0, 3000, 1);
+  experience.finished(4_sub, true, 1000, 3000);
+  CHECK(experience.ratio(true) == 1);
+  CHECK(experience.variation() == Experience().variation());
+}
+
+TEST_CASE("the rest of what has exceeded its forecast is that of a normal distribution") {
+  // By adding up the tail beyond what is made, instead of by its formula.
+  for (const double made : {700.0, 1000.0, 1150.0, 1400.0}) {
+    CAPTURE(made);
+    double beyond = 0, weight = 0;
+    for (double x = made + 0.05; x < 2000; x += 0.1) {
+      const double density = std::exp(-(x - 1000) * (x - 1000) / (2 * 100.0 * 100.0));
+      beyond += density * (x - made);
+      weight += density;
+    }
+    CHECK(expected_rest(1000, 100, made) == doctest::Approx(beyond / weight).epsilon(1e-4));
+  }
+}
+
 TEST_CASE("ratio and variation approach those of the subdomains") {
   std::mt19937_64 random = seeded_generator("experience");
   for (std::int64_t i = 0; i < case_count(50); ++i) {

@@ -1,12 +1,14 @@
 // What a rank tells the others, and what they take from it.
 #include <doctest/doctest.h>
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "balancer/snapshot/knowledge.hpp"
 #include "balancer/trigger/report_rule.hpp"
 #include "controller_fixture.hpp"
+#include "protocol/packed_size.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::balancer;
@@ -79,6 +81,56 @@ TEST_CASE("planned moves count as done until their outcome is known") {
   CHECK(find(knowledge.snapshot(0, true), 0_sub)->remaining == 800);
 }
 
+TEST_CASE("an owner that has not seen the plan yet does not refuse it") {
+  Knowledge knowledge(std::make_shared<Layout>(grid_layout(4, 1, 2)), 10);
+  knowledge.hear(0_rank, {1, 0, 100, loads_of(0, 1, 1000)}, 0);
+  knowledge.hear(1_rank, {1, 0, 100, loads_of(2, 3, 1000)}, 0);
+  knowledge.expect(std::vector<Move>{{0_sub, 1_rank}}, knowledge.snapshot(0, true), 5, 0);
+  knowledge.hear(0_rank, {2, 4, 100, loads_of(0, 1, 1000)}, 0);
+  CHECK(knowledge.in_motion(0_sub));
+  CHECK(find(knowledge.snapshot(0, true), 0_sub)->owner == 1_rank);
+  knowledge.hear(0_rank, {3, 5, 100, loads_of(0, 1, 1000)}, 0);
+  CHECK(!knowledge.in_motion(0_sub));
+}
+
+TEST_CASE("a snapshot lists each subdomain once, where it is or is to be, and takes off the memory for what comes") {
+  const double kAtRest = 40.0 / protocol::kBytesPerTriangle;  // triangles that the bytes of loads_of stand for
+  Knowledge knowledge(std::make_shared<Layout>(grid_layout(8, 1, 4)), 10);
+  LoadReport first{1, 0, 0, loads_of(0, 1, 500)}, second{1, 0, 0, loads_of(2, 3, 300)};
+  first.free_memory = 5000, second.free_memory = 7000;
+  second.loads.push_back({4_sub, 1, 200, 40});  // from rank 2, which is silent, as is rank 3
+  knowledge.hear(0_rank, first, 0);
+  knowledge.hear(1_rank, second, 0);
+  LoadReport third = second;
+  third.round = 2;
+  third.loads.push_back({1_sub, 1, 450, 40});  // rank 0 has not said that it left
+  knowledge.hear(1_rank, third, 0);
+  const LoadSnapshot before = knowledge.snapshot(0, true);
+  knowledge.expect(std::vector<Move>{{0_sub, 1_rank}, {5_sub, 0_rank}, {77_sub, 0_rank}}, before, 1, 0);
+
+  const LoadSnapshot s = knowledge.snapshot(0, true);
+  REQUIRE(s.subdomains.size() == 8);
+  const std::vector<Rank> owners{1_rank, 1_rank, 1_rank, 1_rank, 1_rank, 0_rank, 3_rank, 3_rank};
+  const std::vector<double> work{500, 450, 300, 300, 200, 1000, 1000, 1000};
+  for (std::size_t i = 0; i < 8; ++i) {
+    CAPTURE(i);
+    CHECK(s.subdomains[i].id == static_cast<SubdomainId>(i));
+    CHECK(s.subdomains[i].owner == owners[i]);
+    CHECK(s.subdomains[i].remaining == work[i]);
+  }
+  CHECK(s.ranks[0_rank].remaining == 1000);
+  CHECK(s.ranks[1_rank].remaining == 500 + 450 + 300 + 300 + 200);
+  CHECK(s.ranks[2_rank].remaining == 0);
+  CHECK(s.ranks[3_rank].remaining == 2000);
+  CHECK(s.ranks[0_rank].free_memory == doctest::Approx(5000 - 1000));
+  CHECK(s.ranks[1_rank].free_memory == doctest::Approx(7000 - 500 - kAtRest));
+  CHECK(s.ranks[2_rank].free_memory == 0);
+  const auto coming = knowledge.on_its_way();
+  REQUIRE(coming.size() == 2);
+  CHECK(coming.at(0_rank) == doctest::Approx(1000));
+  CHECK(coming.at(1_rank) == doctest::Approx(500 + kAtRest));
+}
+
 TEST_CASE("a planned move without news is forgotten") {
   Knowledge knowledge(std::make_shared<Layout>(grid_layout(4, 1, 2)), 10);
   knowledge.hear(0_rank, {1, 0, 0, loads_of(0, 1, 1000)}, 0);
@@ -87,6 +139,30 @@ TEST_CASE("a planned move without news is forgotten") {
   CHECK(knowledge.in_motion(0_sub));
   knowledge.hear(1_rank, {2, 0, 0, loads_of(2, 3, 1000)}, 11);
   CHECK(!knowledge.in_motion(0_sub));
+}
+
+TEST_CASE("a plan that took long to make is awaited from its end") {
+  Knowledge knowledge(std::make_shared<Layout>(grid_layout(4, 1, 2)), 10);
+  knowledge.hear(0_rank, {1, 0, 0, loads_of(0, 1, 1000)}, 0);
+  knowledge.expect(std::vector<Move>{{0_sub, 1_rank}}, knowledge.snapshot(0, true), 1, 0);
+  knowledge.expect(std::vector<Move>{{1_sub, 1_rank}}, knowledge.snapshot(0, true), 2, 0);
+  knowledge.put_off(2, 3);
+  knowledge.hear(1_rank, {1, 0, 0, {}}, 12);
+  CHECK(!knowledge.in_motion(0_sub));
+  CHECK(knowledge.in_motion(1_sub));
+  knowledge.hear(1_rank, {2, 0, 0, {}}, 14);
+  CHECK(!knowledge.in_motion(1_sub));
+}
+
+TEST_CASE("knowledge is complete when each rank has reported, however often some have") {
+  Knowledge knowledge(std::make_shared<Layout>(grid_layout(6, 1, 3)), 10);
+  for (std::uint32_t round = 1; round < 5; ++round) {
+    knowledge.hear(0_rank, {round, 0, 0, loads_of(0, 1, 1000)}, 0);
+    knowledge.hear(2_rank, {round, 0, 0, loads_of(4, 5, 1000)}, 0);
+    CHECK(!knowledge.complete());
+  }
+  knowledge.hear(1_rank, {1, 0, 0, {}}, 0);
+  CHECK(knowledge.complete());
 }
 
 TEST_CASE("work that was finished before it could move is not expected at its destination") {

@@ -57,6 +57,27 @@ TEST_CASE("subdomains are found by number, if they are listed") {
   CHECK(find(s, 9_sub) == nullptr);
 }
 
+TEST_CASE("a subdomain needs memory for what it has and what it will have") {
+  CHECK(memory_for({.bytes = 30 * protocol::kBytesPerTriangle}) == 30);
+  CHECK(memory_for({.remaining = 12}) == 12);
+  CHECK(memory_for({.remaining = 12, .bytes = 30 * protocol::kBytesPerTriangle}) == 42);
+}
+
+TEST_CASE("light subdomains leave first, then those whose turn is last, then those with most work") {
+  const SubdomainLoad one{.id = 5_sub, .remaining = 100, .bytes = 3 << 16, .turn = 4};
+  const auto check = [&](const auto& change) {
+    SubdomainLoad earlier = one;
+    change(earlier);
+    CHECK(leaves_before(earlier, one));
+    CHECK(!leaves_before(one, earlier));
+  };
+  check([](SubdomainLoad& s) { s = {.id = 9_sub, .remaining = 1, .bytes = 2 << 16, .turn = 0}; });
+  check([](SubdomainLoad& s) { s = {.id = 9_sub, .remaining = 1, .bytes = (3 << 16) + 9, .turn = 5}; });
+  check([](SubdomainLoad& s) { s.id = 9_sub, s.remaining = 101; });
+  check([](SubdomainLoad& s) { s.id = 4_sub; });
+  CHECK(!leaves_before(one, one));
+}
+
 TEST_CASE("a speed is known after a while, and adapts") {
   SpeedEstimate speed(2);
   CHECK(speed.value() == 0);
@@ -120,6 +141,10 @@ TEST_CASE("surplus goes to the rank that finishes it first") {
 TEST_CASE("borders of which one side is mostly finished do not count") {
   LoadSnapshot s = initial_snapshot(grid_layout(12, 1, 3), {100, 100, 100});
   CHECK(border_between_ranks(s) == 2);
+  for (const double left : {499.0, 500.0, 501.0}) {  // of 1000: a border is open until half is done on one side
+    s.subdomains[3].remaining = left;
+    CHECK(is_open_border(s, s.subdomains[3], s.subdomains[4]) == (left >= 500));
+  }
   s.subdomains[3].remaining = 400;
   CHECK(!is_open_border(s, s.subdomains[3], s.subdomains[4]));
   CHECK(!is_open_border(s, s.subdomains[4], s.subdomains[3]));
