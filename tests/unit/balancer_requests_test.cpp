@@ -1,6 +1,9 @@
 // Work stealing: requests for work, and their answers.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "controller_fixture.hpp"
@@ -235,4 +238,78 @@ TEST_CASE("a rank that givers refused often tries once more when it is out of wo
   CHECK(with_work == balancer::ControllerOptions{}.refusals);
   ask_and_be_refused({});
   CHECK(asked == with_work + 1);
+}
+
+TEST_CASE("requests are numbered, and only the answer to the last one counts") {
+  Controller thief = controller_of(1_rank, grid_layout(12, 1, 3), "stealing");
+  const auto first = sent<balancer::WorkRequest>(thief.think(1, {}, 300));
+  REQUIRE(first.size() == 1);
+  CHECK(first[0].second.round == 1);
+  thief.receive(2_rank, balancer::WorkAnswer{1, {}}, 1);
+  const auto second = sent<balancer::WorkRequest>(thief.think(2, {}, 300));
+  REQUIRE(second.size() == 1);
+  CHECK(second[0].second.round == 2);
+  thief.receive(2_rank, balancer::WorkAnswer{1, {}}, 2);
+  CHECK(thief.waiting());
+  thief.receive(2_rank, balancer::WorkAnswer{2, {}}, 2);
+  CHECK(!thief.waiting());
+}
+
+TEST_CASE("a gift ends a row of refusals, and what was promised is not waited for without end") {
+  ControllerOptions options;
+  options.refusals = 2;
+  Controller thief(1_rank, std::make_shared<Layout>(grid_layout(12, 1, 3)), make_policy("stealing"), options, 0);
+  double now = 1;
+  const auto asks = [&] {
+    const auto requests = sent<balancer::WorkRequest>(thief.think(now += 0.1, loads_of(4, 4, 1000), 300));
+    return requests.empty() ? 0 : requests[0].second.round;
+  };
+  const auto refuse = [&](std::uint32_t round) { thief.receive(2_rank, balancer::WorkAnswer{round, {}}, now); };
+  refuse(asks());
+  thief.receive(2_rank, balancer::WorkAnswer{asks(), {{8_sub, 1_rank}}}, now);
+  CHECK(asks() == 0);
+  thief.arrived(8_sub, 1);
+  refuse(asks());
+  const auto last = asks();
+  CHECK(last == 4);
+  thief.receive(2_rank, balancer::WorkAnswer{last, {{9_sub, 1_rank}}}, now);
+  CHECK(asks() == 0);
+  now += options.interval;
+  asks();
+  CHECK(thief.waiting());  // for the answer to another request
+}
+
+TEST_CASE("a giver gives nothing twice, and less where others will ask, too") {
+  const Layout layout = grid_layout(40, 1, 4);
+  const auto given = [&](std::uint32_t rivals, int thieves) {
+    Controller giver = controller_of(3_rank, layout, "stealing");
+    for (std::int32_t t = 0; t < thieves; ++t)
+      giver.receive(0_rank, balancer::WorkRequest{.thief = Rank{t}, .round = 1, .speed = 1000, .rivals = rivals}, 1);
+    std::vector<SubdomainId> subdomains;
+    for (const Move& move : giver.think(1, loads_of(0, 19, 1000), 1000).moves) subdomains.push_back(move.subdomain);
+    return subdomains;
+  };
+  CHECK(given(0, 1).size() == 10);
+  CHECK(given(3, 1).size() == 4);
+  auto twice = given(0, 2);
+  CHECK(twice.size() == 15);
+  std::ranges::sort(twice);
+  CHECK(std::ranges::adjacent_find(twice) == twice.end());
+}
+
+TEST_CASE("a refused rank is served once, and not if it has come to work otherwise") {
+  const Layout layout = grid_layout(12, 1, 3);
+  Controller broker = asked_broker(layout, {1, 0, 0, 300}, {1, 0, 0, 300});
+  CHECK(sent<balancer::WorkAnswer>(broker.think(1, {}, 300)).size() == 1);  // nobody has any
+  SUBCASE("once") {
+    broker.receive(2_rank, balancer::LoadNews{2, 3000, 2000, 300}, 1.01);
+    CHECK(requests_for_thief(broker.think(1.01, {}, 300)).size() == 1);
+    broker.receive(2_rank, balancer::LoadNews{3, 9000, 8000, 300}, 1.02);
+    CHECK(requests_for_thief(broker.think(1.02, {}, 300)).empty());
+  }
+  SUBCASE("not with work") {
+    broker.receive(1_rank, balancer::LoadNews{2, 2000, 1900, 300}, 1.01);
+    broker.receive(2_rank, balancer::LoadNews{2, 90000, 80000, 300}, 1.01);
+    CHECK(requests_for_thief(broker.think(1.01, {}, 300)).empty());
+  }
 }
