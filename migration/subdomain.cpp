@@ -26,18 +26,16 @@ RefinerState rest_of(const DormantBody& dormant, const Triangulation& mesh, cons
 
 /// The state of a refiner that has finished a mesh but for triangles that are still open.
 RefinerState beginning_of(const Beginning& begin, const SizeBounds& sizes) {
+  const Triangulation& mesh = begin.mesh->mesh;
   RefinerState state;
+  if (begin.lengths != nullptr)
+    state.size = *begin.lengths;
+  else
+    state = RefinerState::at_start(mesh, sizes);
   state.stage = begin.open.empty() ? RefinerState::Stage::kDone : RefinerState::Stage::kRest;
-  state.next_segment = begin.mesh->mesh.subsegments.next_id();
+  state.next_segment = mesh.subsegments.next_id();
   state.sweep.end();
   for (const TriangleId t : begin.open) state.sweep.visit_again(t);
-  if (begin.lengths != nullptr) {
-    state.size = *begin.lengths;
-  } else if (sizes.by_place()) {
-    const Triangulation& mesh = begin.mesh->mesh;
-    for (const VertexId v : ids_of(mesh.points))
-      state.size.push_back(mesh.origin[v] == kDeleted ? kNoBound : sizes.length_at(mesh.points[v]));
-  }
   return state;
 }
 

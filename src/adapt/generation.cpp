@@ -7,6 +7,15 @@
 
 namespace driftmesh::adapt {
 
+IdVector<TriangleId, std::int32_t> numbers_of_triangles(const Generation& generation, SubdomainId s) {
+  const Triangulation& mesh = generation.parts[s].mesh->mesh;
+  IdVector<TriangleId, std::int32_t> numbers(mesh.triangles.size(), kNone);
+  std::int32_t next = generation.first_triangle[s];
+  for (const TriangleId t : ids_of(mesh.triangles))
+    if (mesh.triangles[t].alive()) numbers[t] = next++;
+  return numbers;
+}
+
 Part first_part(SubdomainMesh mesh, const QualityBounds& bounds, Lengths made_for) {
   Part part{.mesh = std::make_shared<const SubdomainMesh>(std::move(mesh))};
   part.asked = demand_of(part.mesh->mesh, bounds, made_for).triangles;

@@ -38,6 +38,9 @@ struct Generation {
   [[nodiscard]] bool is_here(SubdomainId s) const { return parts[s].mesh != nullptr; }
 };
 
+/// The number of each triangle of a part that is here in the piece; kNone for free slots.
+[[nodiscard]] IdVector<TriangleId, std::int32_t> numbers_of_triangles(const Generation& generation, SubdomainId s);
+
 /// The part that a session begins with. `made_for`: lengths by which it was made, at its vertices; empty: by none.
 [[nodiscard]] Part first_part(SubdomainMesh mesh, const QualityBounds& bounds, Lengths made_for);
 

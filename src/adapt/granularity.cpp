@@ -58,7 +58,7 @@ IdVector<SubdomainId, SubdomainId> light_groups(const Decomposition& decompositi
   std::ranges::sort(light);
   const auto neighbors = neighbors_across_separators(decomposition);
   DisjointSets<SubdomainId> groups(decomposition.size());
-  IdVector<SubdomainId, double> together = asked;  // of the group, at its lowest number
+  IdVector<SubdomainId, double> together = asked;  // what is asked of each group, at its lowest number
   std::size_t gone = 0;
   for (const auto& [own, s] : light) {
     const SubdomainId group = groups.find(s);

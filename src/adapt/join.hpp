@@ -26,7 +26,7 @@ struct Basis {
 /// The same where light subdomains have become one: each point and triangle is there as before, but for numbers.
 struct Joined {
   RunPlan plan;
-  Holding present;  ///< of what stayed, all but what had to go to another rank
+  Holding present;  ///< all but what had to go to another rank has stayed
   Wanted wanted;
   IdVector<SubdomainId, Demand> demands;
   IdVector<SubdomainId, SubdomainId> whole;  ///< what each subdomain has become, or is a part of

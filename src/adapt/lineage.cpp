@@ -6,18 +6,6 @@
 #include "base/in_turns.hpp"
 
 namespace driftmesh::adapt {
-namespace {
-
-/// The number of each triangle in the piece; kNone for free slots.
-IdVector<TriangleId, std::int32_t> numbers_of_triangles(const Triangulation& mesh, std::int32_t first) {
-  IdVector<TriangleId, std::int32_t> numbers(mesh.triangles.size(), kNone);
-  for (const TriangleId t : ids_of(mesh.triangles))
-    if (mesh.triangles[t].alive()) numbers[t] = first++;
-  return numbers;
-}
-
-}  // namespace
-
 Lineage::Lineage(const Generation& before, const Generation& after, std::int32_t threads, Ranks& ranks)
     : before_(before),
       after_(after),
@@ -86,9 +74,8 @@ std::vector<std::int32_t> Lineage::stayed_points() const {
 void Lineage::visit_parts(const std::function<void(SubdomainId, const Change&)>& visit) const {
   for_each_part([&](SubdomainId s) {
     const Triangulation &old_mesh = before_.parts[s].mesh->mesh, &new_mesh = after_.parts[s].mesh->mesh;
-    visit(s, {is_the_same(s), old_mesh, new_mesh, descents_[s].same,
-              numbers_of_triangles(old_mesh, before_.first_triangle[s]),
-              numbers_of_triangles(new_mesh, after_.first_triangle[s]), before_.places[s], after_.places[s]});
+    visit(s, {is_the_same(s), old_mesh, new_mesh, descents_[s].same, numbers_of_triangles(before_, s),
+              numbers_of_triangles(after_, s), before_.places[s], after_.places[s]});
   });
 }
 

@@ -39,18 +39,8 @@ class Renumbering {
       return;
     }
     std::vector<IdVector<TriangleId, std::int32_t>> number;
-    for (const SubdomainId p : former.parts) number.push_back(numbers_of(p));
+    for (const SubdomainId p : former.parts) number.push_back(numbers_of_triangles(before_, p));
     for (const auto& [mesh, id] : former.triangle) triangles_.push_back(number[to_index(mesh)][id]);
-  }
-
-  /// Those of the triangles of a part in the piece.
-  [[nodiscard]] IdVector<TriangleId, std::int32_t> numbers_of(SubdomainId p) const {
-    const Triangulation& mesh = before_.parts[p].mesh->mesh;
-    IdVector<TriangleId, std::int32_t> numbers(mesh.triangles.size(), kNone);
-    std::int32_t next = before_.first_triangle[p];
-    for (const TriangleId t : ids_of(mesh.triangles))
-      if (mesh.triangles[t].alive()) numbers[t] = next++;
-    return numbers;
   }
 
   const Generation& before_;

@@ -44,6 +44,12 @@ struct Decomposition {
     [[nodiscard]] bool is_interface() const { return left != kNoSubdomain && right != kNoSubdomain && left != right; }
     /// The subdomain on the other side of an interface.
     [[nodiscard]] SubdomainId across_from(SubdomainId one) const { return left == one ? right : left; }
+    /// Gives it the other direction.
+    void turn_around() {
+      std::swap(a, b);
+      std::swap(left, right);
+      std::swap(left_region, right_region);
+    }
     friend bool operator==(const Root&, const Root&) = default;
   };
   struct Subdomain {

@@ -84,38 +84,35 @@ class Gluing {
         middles_[{joined_.points[was].halved.root, joined_.points[was].halved.interval}] = parts_[k].new_vertex[v];
       return;
     }
-    const auto& points = made_.part.points;
-    const auto place = static_cast<VertexId>(std::lower_bound(points.begin(), points.end(), point) - points.begin());
+    const VertexId place = vertex_of(point);
     parts_[k].new_vertex[v] = place;
     if (made_.vertex[place].mesh == kNone) made_.vertex[place] = {index_of_part(k), v};
   }
 
   void plant_trees() {
     Triangulation& mesh = made_.part.mesh;
-    const auto vertex_of = [&](GlobalPointId v) {
-      const auto& points = made_.part.points;
-      return static_cast<VertexId>(std::lower_bound(points.begin(), points.end(), v) - points.begin());
-    };
     for (const GlobalRootId r : made_.part.roots) {
       const Decomposition::Root& root = now_.roots[r];
       mesh.add_root(vertex_of(root.a), vertex_of(root.b), root.marker, root.shell);
     }
     for (const auto& [interval, middle] : middles_)  // those that contain others first
-      (void)halved(mesh.descend(root_in_mesh(interval.first), interval.second), middle);
+      (void)halved(mesh.descend(root_of(interval.first), interval.second), middle);
     for (Part& part : parts_)
       for (const RootId r : ids_of(part.from.roots)) {
         const RootInterval& now = joined_.roots[part.from.roots[r]];
         if (now.root == kNone) continue;
-        const SubsegmentId node = mesh.descend(root_in_mesh(now.root), now.interval);
+        const SubsegmentId node = mesh.descend(root_of(now.root), now.interval);
         const SubsegmentId tree = part.from.mesh.roots[r].tree;
         const VertexId start = part.new_vertex[part.from.mesh.subsegments[tree].vertex[0]];
         grow(part, tree, node, mesh.subsegments[node].vertex[0] != start);
       }
   }
 
-  [[nodiscard]] RootId root_in_mesh(GlobalRootId root) const {
-    const auto& roots = made_.part.roots;
-    return static_cast<RootId>(std::lower_bound(roots.begin(), roots.end(), root) - roots.begin());
+  [[nodiscard]] VertexId vertex_of(GlobalPointId point) const {
+    return static_cast<VertexId>(std::ranges::lower_bound(made_.part.points, point) - made_.part.points.begin());
+  }
+  [[nodiscard]] RootId root_of(GlobalRootId root) const {
+    return static_cast<RootId>(std::ranges::lower_bound(made_.part.roots, root) - made_.part.roots.begin());
   }
 
   /// The first half of a node, which becomes two unless it is.
@@ -177,7 +174,7 @@ class Gluing {
   std::vector<Part> parts_;
   std::map<OnRoot, VertexId> midpoints_;    // on roots as they were
   std::map<GlobalPointId, VertexId> gone_;  // points that are none any more
-  std::map<OnRoot, VertexId> middles_;      // of intervals of the roots that there are now
+  std::map<OnRoot, VertexId> middles_;      // the intervals are those of roots that there are now
   std::map<OnRoot, HalfEdge> open_;         // on leaves of roots as they were
   GluedSubdomain made_;
 };

@@ -144,11 +144,7 @@ class Rejoiner {
     Decomposition::Root &root = d_.roots[kept], &rest = d_.roots[gone];
     const GlobalPointId end = rest.a == v ? rest.b : rest.a;
     (root.a == v ? root.a : root.b) = end;
-    if (root.a > root.b) {
-      std::swap(root.a, root.b);
-      std::swap(root.left, root.right);
-      std::swap(root.left_region, root.right_region);
-    }
+    if (root.a > root.b) root.turn_around();
     std::ranges::replace(ending_[end].some, gone, kept);
     rest.a = kNoPoint;
   }

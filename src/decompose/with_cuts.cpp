@@ -147,10 +147,7 @@ class Application {
   }
 
   static void direct(Decomposition::Root& root) {
-    if (root.a < root.b || root.shell != kNone) return;
-    std::swap(root.a, root.b);
-    std::swap(root.left, root.right);
-    std::swap(root.left_region, root.right_region);
+    if (root.a > root.b && root.shell == kNone) root.turn_around();
   }
 
   void add_separators() {

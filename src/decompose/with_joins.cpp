@@ -80,10 +80,7 @@ class Joining {
 
   /// A root in the direction that begins with point `start`.
   static Decomposition::Root directed(Decomposition::Root root, GlobalPointId start) {
-    if (root.a == start) return root;
-    std::swap(root.a, root.b);
-    std::swap(root.left, root.right);
-    std::swap(root.left_region, root.right_region);
+    if (root.a != start) root.turn_around();
     return root;
   }
 
@@ -136,7 +133,6 @@ class Joining {
 
   void number_roots() {
     made_.roots.assign(d_.roots.size(), {dyadic::kWhole, kNone});
-    IdVector<GlobalRootId, bool> done(d_.roots.size(), false);
     IdVector<GlobalRootId, GlobalRootId> above(chains_.size(), kNone);
     for (const GlobalRootId r : ids_of(chains_))
       for (const GlobalRootId half : chains_[r].half)

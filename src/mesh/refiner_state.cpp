@@ -37,7 +37,8 @@ bool is_sound(const SkinnyBuckets& skinny, const Triangulation& mesh) {
 RefinerState RefinerState::at_start(const Triangulation& mesh, const SizeBounds& sizes) {
   RefinerState state;
   if (sizes.by_place())
-    for (const Point& p : mesh.points) state.size.push_back(sizes.length_at(p));
+    for (const VertexId v : ids_of(mesh.points))
+      state.size.push_back(mesh.origin[v] == kDeleted ? kNoBound : sizes.length_at(mesh.points[v]));
   return state;
 }
 

@@ -82,11 +82,7 @@ inline Broken broken(const Decomposition& d, const SplitPoints& points, std::uin
       Decomposition::Root root = d.roots[name];
       root.a = pieces[k].a;
       root.b = pieces[k].b;
-      if (root.a > root.b) {  // the rule of check_decomposition
-        std::swap(root.a, root.b);
-        std::swap(root.left, root.right);
-        std::swap(root.left_region, root.right_region);
-      }
+      if (root.a > root.b) root.turn_around();  // the rule of check_decomposition
       const GlobalRootId renamed = k == 0 ? name : now.roots.next_id();
       if (k == 0)
         now.roots[name] = root;
