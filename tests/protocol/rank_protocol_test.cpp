@@ -34,6 +34,18 @@ struct Ranks {
     REQUIRE(outgoing.size() == 1);
     return outgoing[0];
   }
+  // All of them rest until nobody sends anything any more.
+  void come_to_the_end() {
+    int carried = 0;
+    for (bool moved = true; moved; ++carried) {
+      REQUIRE(carried < 100);
+      moved = false;
+      for (const Rank r : first_ids<Rank>(3)) {
+        (*this)[r].rest(true);
+        for (const Outgoing& outgoing : (*this)[r].take_outgoing()) carry(r, outgoing), moved = true;
+      }
+    }
+  }
 };
 
 }  // namespace
@@ -177,15 +189,7 @@ TEST_CASE("control messages that have come do not delay the end, and what they s
   ranks[1_rank].advise(0_rank, LocationUpdate{2_sub, 2_rank, 0});
   ranks[0_rank].advise(2_rank, Advice{1, Bytes(2)});
   ranks[2_rank].abandon();
-  int carried = 0;
-  for (bool moved = true; moved; ++carried) {
-    REQUIRE(carried < 100);
-    moved = false;
-    for (const Rank r : first_ids<Rank>(3)) {
-      ranks[r].rest(true);
-      for (const Outgoing& outgoing : ranks[r].take_outgoing()) ranks.carry(r, outgoing), moved = true;
-    }
-  }
+  ranks.come_to_the_end();
   for (const Rank r : first_ids<Rank>(3)) {
     CHECK(ranks[r].finished());
     CHECK(!ranks[r].receive(0_rank, Advice{1, Bytes(2)}).advice);
@@ -227,15 +231,7 @@ TEST_CASE("advice is delivered while there is work, and rejected afterward") {
   REQUIRE(delivery.advice);
   CHECK(*delivery.advice == Advice{3, Bytes(5)});
 
-  int carried = 0;
-  for (bool moved = true; moved; ++carried) {
-    REQUIRE(carried < 100);
-    moved = false;
-    for (const Rank r : first_ids<Rank>(3)) {
-      ranks[r].rest(true);
-      for (const Outgoing& outgoing : ranks[r].take_outgoing()) ranks.carry(r, outgoing), moved = true;
-    }
-  }
+  ranks.come_to_the_end();
   for (const auto& rank : ranks.all) CHECK(rank.finished());
   CHECK(!ranks[0_rank].advise(1_rank, Advice{}));
   CHECK(ranks[0_rank].take_outgoing().empty());

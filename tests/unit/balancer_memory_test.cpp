@@ -32,7 +32,7 @@ TEST_CASE("a giver asks a rank that is short of memory, and hands over what is a
   CHECK(questions[0].first == 0_rank);
   CHECK(questions[0].second.stage == Stage::kAsk);
   const auto guests = questions[0].second.guests;
-  CHECK(guests.size() == 5);  // of a little more than 1000 triangles each
+  CHECK(guests.size() == 5);  // a little more than 1000 triangles each
   const auto answers = sent<WorkAnswer>(asked);
   REQUIRE(answers.size() == 1);
   CHECK(answers[0].second.moves.size() == 5);

@@ -55,7 +55,7 @@ TEST_CASE("news counts once, in its order, and from then on time passes at its s
   }
   news.hear(1_rank, {3, 500, 300, 100, 0, 900}, 20);
   news.hear(1_rank, {4, 500, 300, 300, 0, 900}, 20);
-  CHECK(news.known_or_mean(0) == 300);  // of each rank the last speed
+  CHECK(news.known_or_mean(0) == 300);  // the last speed of each rank
   CHECK(!news.complete());
   news.hear(0_rank, {1, 100, 0, 100, 0, 900}, 20);
   CHECK(news.known_or_mean(0) == 200);

@@ -84,7 +84,7 @@ TEST_CASE("plans without effect become rarer, and planning takes no more than it
   CHECK(pace.due(now + 50));
   pace.looked(now + 50);
   pace.took(0.001);
-  CHECK(pace.cost_of_planning() == 0.5);  // of a plan, not of a look
+  CHECK(pace.cost_of_planning() == 0.5);  // what a plan takes, not a look
   CHECK(pace.due(now + 51));
 }
 

@@ -141,7 +141,7 @@ TEST_CASE("surplus goes to the rank that finishes it first") {
 TEST_CASE("borders of which one side is mostly finished do not count") {
   LoadSnapshot s = initial_snapshot(grid_layout(12, 1, 3), {100, 100, 100});
   CHECK(border_between_ranks(s) == 2);
-  for (const double left : {499.0, 500.0, 501.0}) {  // of 1000: a border is open until half is done on one side
+  for (const double left : {499.0, 500.0, 501.0}) {  // out of 1000: a border is open until half is done on one side
     s.subdomains[3].remaining = left;
     CHECK(is_open_border(s, s.subdomains[3], s.subdomains[4]) == (left >= 500));
   }
