@@ -18,6 +18,10 @@ struct GridPoint {
 };
 using GridRing = std::vector<GridPoint>;  ///< the first corner is not repeated at the end
 
+[[nodiscard]] inline GridRing rectangle(std::int64_t left, std::int64_t bottom, std::int64_t right, std::int64_t top) {
+  return {{left, bottom}, {right, bottom}, {right, top}, {left, top}};
+}
+
 /// The interior of the first ring, by even-odd, without those of the others.
 struct GridPolygon {
   std::vector<GridRing> rings;

@@ -78,24 +78,24 @@ Drawn random_raster(Random& random, bool hills) {
   return drawn;
 }
 
-struct Edge {
+struct Line {
   Point a, b;
 };
 
-std::vector<Edge> edges_of(const std::vector<LevelPart>& parts) {
-  std::vector<Edge> edges;
+std::vector<Line> edges_of(const std::vector<LevelPart>& parts) {
+  std::vector<Line> edges;
   for (const LevelPart& part : parts)
     for (const PolygonRing& ring : part.rings)
       for (std::size_t k = 0; k < ring.size(); ++k) edges.push_back({ring[k], ring[(k + 1) % ring.size()]});
   return edges;
 }
 
-double sign_of(const Edge& e, const Point& p) {
+double sign_of(const Line& e, const Point& p) {
   return orient2d(e.a, e.b, p);
 }
 
 /// Whether two edges have more than an end in common.
-bool overlap(const Edge& e, const Edge& f) {
+bool overlap(const Line& e, const Line& f) {
   if (!Box::around(e.a, e.b).overlaps(Box::around(f.a, f.b))) return false;
   const bool common = e.a == f.a || e.a == f.b || e.b == f.a || e.b == f.b;
   const double a = sign_of(e, f.a), b = sign_of(e, f.b), c = sign_of(f, e.a), d = sign_of(f, e.b);
@@ -106,9 +106,9 @@ bool overlap(const Edge& e, const Edge& f) {
   return (p.x - shared.x) * (q.x - shared.x) + (p.y - shared.y) * (q.y - shared.y) > 0;
 }
 
-std::size_t count_overlaps(const std::vector<Edge>& edges) {
-  std::vector<Edge> sorted = edges;
-  const auto left = [](const Edge& e) { return std::min(e.a.x, e.b.x); };
+std::size_t count_overlaps(const std::vector<Line>& edges) {
+  std::vector<Line> sorted = edges;
+  const auto left = [](const Line& e) { return std::min(e.a.x, e.b.x); };
   std::ranges::sort(sorted, {}, left);
   std::size_t found = 0;
   for (std::size_t k = 0; k < sorted.size(); ++k)
@@ -128,15 +128,15 @@ int part_at(const std::vector<LevelPart>& parts, const Point& p) {
   return found;
 }
 
-double distance(const Point& p, const Edge& e) {
+double distance(const Point& p, const Line& e) {
   const double x = e.b.x - e.a.x, y = e.b.y - e.a.y;
   const double t = std::clamp(((p.x - e.a.x) * x + (p.y - e.a.y) * y) / (x * x + y * y), 0.0, 1.0);
   return std::hypot(p.x - e.a.x - t * x, p.y - e.a.y - t * y);
 }
 
-double distance(const Point& p, const std::vector<Edge>& edges) {
+double distance(const Point& p, const std::vector<Line>& edges) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Edge& e : edges) least = std::min(least, distance(p, e));
+  for (const Line& e : edges) least = std::min(least, distance(p, e));
   return least;
 }
 
@@ -159,9 +159,9 @@ TEST_CASE("rings of a level are simple, and hold the points beyond it, in parts 
     const Drawn drawn = random_raster(random, false);
     const RasterFrame& f = drawn.frame;
     const std::vector<LevelPart> parts = drawn.parts();
-    const std::vector<Edge> edges = edges_of(parts);
+    const std::vector<Line> edges = edges_of(parts);
     CHECK(count_overlaps(edges) == 0);
-    for (const Edge& e : edges)
+    for (const Line& e : edges)
       CHECK(std::hypot((e.b.x - e.a.x) / f.dx, (e.b.y - e.a.y) / f.dy) > LevelOutline::kSnap * (1 - 1e-9));
     for (std::size_t k = 0; k < parts.size(); ++k) {
       CHECK(parts[k].area > 0);
@@ -175,7 +175,7 @@ TEST_CASE("rings of a level are simple, and hold the points beyond it, in parts 
       holes += static_cast<int>(parts[k].rings.size()) - 1;
     }
     std::vector<Point> ends;
-    for (const Edge& e : edges) ends.push_back(e.a);
+    for (const Line& e : edges) ends.push_back(e.a);
     std::ranges::sort(ends, {}, [](const Point& p) { return std::pair{p.x, p.y}; });
     if (std::ranges::adjacent_find(ends) != ends.end()) ++touching;
     const double near = 1e-6 * std::min(f.dx, f.dy);
@@ -212,7 +212,7 @@ TEST_CASE("away from the outline of a level, the bilinear interpolant says what 
     const Drawn drawn = random_raster(random, true);
     const RasterFrame& f = drawn.frame;
     const std::vector<LevelPart> parts = drawn.parts();
-    const std::vector<Edge> edges = edges_of(parts);
+    const std::vector<Line> edges = edges_of(parts);
     // Within a square, the interpolant's curve is on the other side of the chord by half a diagonal at most.
     const double far = (0.51 + LevelOutline::kSnap) * std::hypot(f.dx, f.dy);
     for (int n = 0; n < 200; ++n) {

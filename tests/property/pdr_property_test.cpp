@@ -55,11 +55,11 @@ Case random_case(std::uint64_t seed) {
 }
 
 /// The ranks of a case, without any network.
-struct Ranks {
+struct Holders {
   IdVector<Rank, std::unique_ptr<pdr::Part>> all;
   pdr::Lattice lattice{{0, 0}, {1, 1}, 1, 1};
 
-  Ranks(const Case& c, std::int32_t ranks) {
+  Holders(const Case& c, std::int32_t ranks) {
     Triangulation mesh = c.mesh;
     lattice = pdr::start(mesh, c.bounds, ranks);
     for (const Rank r : first_ids<Rank>(ranks))
@@ -67,13 +67,13 @@ struct Ranks {
   }
 };
 
-IdVector<Rank, Exchange*> refinements_of(const Ranks& ranks) {
+IdVector<Rank, Exchange*> refinements_of(const Holders& ranks) {
   IdVector<Rank, Exchange*> exchanges;
   for (const auto& one : ranks.all) exchanges.push_back(one.get());
   return exchanges;
 }
 
-void refine_directly(const Ranks& ranks) {
+void refine_directly(const Holders& ranks) {
   exchange_directly(refinements_of(ranks));
 }
 
@@ -110,7 +110,7 @@ std::array<Place, 3> corners_of(const Point& a, const Point& b, const Point& c) 
   return corners;
 }
 
-Union union_of(const Ranks& ranks, const Case& c) {
+Union union_of(const Holders& ranks, const Case& c) {
   Union all;
   for (const Rank r : ids_of(ranks.all)) {
     const Triangulation& mesh = ranks.all[r]->mesh();
@@ -135,7 +135,7 @@ Union union_of(const Ranks& ranks, const Case& c) {
 }
 
 /// The whole mesh. Triangles that two ranks have, or none, do not escape a check of it.
-Mesh whole_of(const Ranks& ranks, const Case& c) {
+Mesh whole_of(const Holders& ranks, const Case& c) {
   const Union all = union_of(ranks, c);
   Mesh mesh;
   std::map<Place, std::int32_t> numbers;
@@ -198,7 +198,7 @@ TEST_CASE("random domains on any number of ranks make one mesh that meets the bo
     CAPTURE(oracles::poly_text(c.input));
     for (const std::int32_t ranks : {1, 2, 4}) {
       CAPTURE(ranks);
-      const Ranks all(c, ranks);
+      const Holders all(c, ranks);
       refine_directly(all);
       check_mesh(c, whole_of(all, c));
       for (const auto& one : all.all) told += one->told();
@@ -215,7 +215,7 @@ TEST_CASE("an adversarial network does not change the mesh") {
     CAPTURE(seed);
     const Case c = random_case(seed % 5 + 1);
     const auto count = static_cast<std::int32_t>(2 + seed % 3);
-    const Ranks all(c, count), undisturbed(c, count);
+    const Holders all(c, count), undisturbed(c, count);
     protocol::AdversarialNetwork network(count, protocol::Adversary::from_seed(seed));
     exchange_over(network, refinements_of(all));
     refine_directly(undisturbed);
@@ -232,7 +232,7 @@ TEST_CASE("simulated ranks make the same mesh, and time passes for all that they
     CAPTURE(seed);
     const Case c = random_case(seed);
     constexpr std::int32_t kRanks = 4;
-    const Ranks direct(c, kRanks);
+    const Holders direct(c, kRanks);
     refine_directly(direct);
     const Mesh mesh = whole_of(direct, c);
 

@@ -8,17 +8,12 @@
 
 #include "property/cases.hpp"
 #include "pslg/point_welder.hpp"
+#include "support/random.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::testing;
 
 namespace {
-
-using Random = std::mt19937_64;
-
-std::int32_t integer(Random& random, std::int32_t low, std::int32_t high) {
-  return std::uniform_int_distribution<std::int32_t>(low, high)(random);
-}
 
 /// The oracle looks at all points.
 class QuadraticWelder {

@@ -86,10 +86,6 @@ int naive_incircle(const Quad& q) {
 
 // --- Generators. ---
 
-int integer(Random& random, int low, int high) {
-  return std::uniform_int_distribution<int>(low, high)(random);
-}
-
 /// `value` moved by up to `ulps` representable numbers.
 double nudged(Random& random, double value, int ulps) {
   const int steps = integer(random, -ulps, ulps);

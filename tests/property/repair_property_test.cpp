@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "driftmesh/repair.hpp"
+#include "support/random.hpp"
 
 using namespace driftmesh;
+using namespace driftmesh::testing;
 using Rational = boost::multiprecision::cpp_rational;
 
 namespace {
@@ -93,7 +95,7 @@ double magnitude(const Pslg& pslg) {
   return largest;
 }
 
-bool same(const Pslg& a, const Pslg& b) {
+bool same_lines(const Pslg& a, const Pslg& b) {
   return a.points == b.points && a.segments == b.segments && a.point_markers == b.point_markers &&
          a.attributes == b.attributes;
 }
@@ -105,15 +107,6 @@ Pslg scaled(Pslg pslg, double factor) {
 }
 
 // Sets of segments, each with one kind of difficulty.
-
-using Random = std::mt19937_64;
-
-std::int32_t integer(Random& random, std::int32_t low, std::int32_t high) {
-  return std::uniform_int_distribution<std::int32_t>(low, high)(random);
-}
-double real(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 void add_random_segments(Pslg& pslg, Random& random, int count) {
   const auto last = static_cast<std::int32_t>(pslg.points.size()) - 1;
@@ -131,7 +124,7 @@ Pslg integer_grid(Random& random) {
 
 Pslg random_reals(Random& random) {
   Pslg pslg;
-  for (int i = 0; i < 16; ++i) pslg.points.push_back({real(random, -1, 1), real(random, -1, 1)});
+  for (int i = 0; i < 16; ++i) pslg.points.push_back({uniform(random, -1, 1), uniform(random, -1, 1)});
   add_random_segments(pslg, random, 10);
   return pslg;
 }
@@ -140,13 +133,13 @@ Pslg random_reals(Random& random) {
 Pslg computed_junctions(Random& random) {
   Pslg pslg;
   const double shift = integer(random, 0, 1) * 4e6;
-  for (int i = 0; i < 4; ++i) pslg.points.push_back({shift + real(random, 0, 1), shift + real(random, 0, 1)});
+  for (int i = 0; i < 4; ++i) pslg.points.push_back({shift + uniform(random, 0, 1), shift + uniform(random, 0, 1)});
   pslg.segments = {{0, 1, 1}, {2, 3, 2}};
   for (int i = 0; i < 6; ++i) {
     const auto on = static_cast<std::size_t>(integer(random, 0, static_cast<std::int32_t>(pslg.segments.size()) - 1));
     const Point a = pslg.points[static_cast<std::size_t>(pslg.segments[on].a)];
     const Point b = pslg.points[static_cast<std::size_t>(pslg.segments[on].b)];
-    const double t = real(random, 0, 1);
+    const double t = uniform(random, 0, 1);
     pslg.points.push_back({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)});
     pslg.segments.push_back({static_cast<std::int32_t>(pslg.points.size()) - 1, integer(random, 0, 3), 3});
   }
@@ -158,7 +151,7 @@ Pslg nearly_parallel(Random& random) {
   Pslg pslg;
   for (int i = 0; i < 8; ++i) {
     const double tilt = integer(random, -20, 20) * 0x1p-52, lift = integer(random, -20, 20) * 0x1p-52;
-    const double x0 = real(random, 0, 0.4), x1 = real(random, 0.6, 1);
+    const double x0 = uniform(random, 0, 0.4), x1 = uniform(random, 0.6, 1);
     pslg.points.push_back({x0, 0.3 + x0 * 0.7 + lift});
     pslg.points.push_back({x1, 0.3 + x1 * 0.7 + lift + tilt});
     pslg.segments.push_back({2 * i, 2 * i + 1, i});
@@ -169,9 +162,9 @@ Pslg nearly_parallel(Random& random) {
 // Lines through one point, which no two crossings computed from them hit exactly.
 Pslg pencil(Random& random) {
   Pslg pslg;
-  const Point center{real(random, -1, 1), real(random, -1, 1)};
+  const Point center{uniform(random, -1, 1), uniform(random, -1, 1)};
   for (int i = 0; i < 7; ++i) {
-    const double angle = real(random, 0, 3.14159), r = real(random, 0.1, 10), s = real(random, 0.1, 10);
+    const double angle = uniform(random, 0, 3.14159), r = uniform(random, 0.1, 10), s = uniform(random, 0.1, 10);
     pslg.points.push_back({center.x + r * std::cos(angle), center.y + r * std::sin(angle)});
     pslg.points.push_back({center.x - s * std::cos(angle), center.y - s * std::sin(angle)});
     pslg.segments.push_back({2 * i, 2 * i + 1, 0});
@@ -238,7 +231,7 @@ TEST_CASE("repair makes any set of segments planar, keeps its shape, and is idem
       CHECK(large.points == scaled(once, 0x1p200).points);
       Pslg twice = once;
       CHECK_FALSE(repair(twice).changed());
-      CHECK(same(once, twice));
+      CHECK(same_lines(once, twice));
       crossings += report.crossings.count;
       overlaps += report.overlaps.count;
       on_segments += report.points_on_segments.count;
@@ -278,7 +271,7 @@ namespace {
 /// Rings, lines and points with gaps, slivers and steps of about the length by which they are snapped.
 Pslg rough_outlines(Random& random, double length) {
   Pslg pslg;
-  const auto noise = [&] { return real(random, -1.2, 1.2) * length; };
+  const auto noise = [&] { return uniform(random, -1.2, 1.2) * length; };
   const int rings = integer(random, 1, 4);
   for (int r = 0; r < rings; ++r) {
     const auto first = static_cast<std::int32_t>(pslg.points.size());
@@ -296,11 +289,11 @@ Pslg rough_outlines(Random& random, double length) {
   const int lines = integer(random, 0, 4);
   for (int i = 0; i < lines; ++i) {
     const auto first = static_cast<std::int32_t>(pslg.points.size());
-    pslg.points.push_back({real(random, 0, 5), real(random, 0, 5)});
-    pslg.points.push_back({real(random, 0, 5), real(random, 0, 5)});
+    pslg.points.push_back({uniform(random, 0, 5), uniform(random, 0, 5)});
+    pslg.points.push_back({uniform(random, 0, 5), uniform(random, 0, 5)});
     pslg.segments.push_back({first, first + 1, 9});
   }
-  for (int i = integer(random, 0, 4); i > 0; --i) pslg.points.push_back({real(random, 0, 5), real(random, 0, 5)});
+  for (int i = integer(random, 0, 4); i > 0; --i) pslg.points.push_back({uniform(random, 0, 5), uniform(random, 0, 5)});
   return pslg;
 }
 
@@ -320,7 +313,7 @@ TEST_CASE("snapping leaves no two vertices within its length, and moves none by 
   for (std::uint64_t seed = 1; seed <= 1500; ++seed) {
     CAPTURE(seed);
     Random random(seed);
-    const double length = std::exp2(integer(random, -12, -2)) * real(random, 0.5, 1);
+    const double length = std::exp2(integer(random, -12, -2)) * uniform(random, 0.5, 1);
     CAPTURE(length);
     const Pslg input = rough_outlines(random, length);
     Pslg snapped = input;
@@ -350,7 +343,7 @@ TEST_CASE("snapping leaves no two vertices within its length, and moves none by 
     CHECK(total_length(snapped) <= 1.5 * total_length(input));
     Pslg twice = snapped;
     CHECK_FALSE(repair(twice, "input", {.snap = length}).changed());
-    CHECK(same(snapped, twice));
+    CHECK(same_lines(snapped, twice));
     merged += report.close_points.count;
     bent += report.points_close_segments.count;
     collapsed += report.collapsed.count;

@@ -24,16 +24,16 @@ using namespace driftmesh::testing;
 namespace {
 
 /// Long double, brute force.
-double distance(const Point& p, const Point& a, const Point& b) {
+double exact_distance(const Point& p, const Point& a, const Point& b) {
   const long double ex = static_cast<long double>(b.x) - a.x, ey = static_cast<long double>(b.y) - a.y;
   const long double px = static_cast<long double>(p.x) - a.x, py = static_cast<long double>(p.y) - a.y;
   const long double t = std::clamp<long double>((px * ex + py * ey) / (ex * ex + ey * ey), 0, 1);
   return static_cast<double>(std::hypot(px - t * ex, py - t * ey));
 }
 
-double distance(const Point& p, const Pslg& pslg) {
+double exact_distance(const Point& p, const Pslg& pslg) {
   double least = HUGE_VAL;
-  for (const auto& s : pslg.segments) least = std::min(least, distance(p, pslg.points[s.a], pslg.points[s.b]));
+  for (const auto& s : pslg.segments) least = std::min(least, exact_distance(p, pslg.points[s.a], pslg.points[s.b]));
   return least;
 }
 
@@ -148,18 +148,18 @@ TEST_CASE("random domains keep their shape within the tolerance, and what lies w
     const double most = tolerance * (1 + 1e-9);
     if (report.rings == 0)
       for (const Point& p : before.points)
-        if (distance(p, before) == 0) CHECK(distance(p, after) <= most);
+        if (exact_distance(p, before) == 0) CHECK(exact_distance(p, after) <= most);
     for (const auto& s : after.segments)
       for (const double t : {0.0, 0.1, 0.3, 0.5, 0.7, 0.9}) {
         const Point &a = after.points[s.a], &b = after.points[s.b];
-        CHECK(distance({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)}, before) <= most);
+        CHECK(exact_distance({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)}, before) <= most);
       }
 
     const Triangulation faces_before = triangulate(before), faces_after = triangulate(after);
     std::uniform_real_distribution<double> x(box.low.x, box.high.x), y(box.low.y, box.high.y);
     for (int k = 0; k < 60; ++k) {
       const Point p{x(random), y(random)};
-      if (distance(p, before) <= most) continue;
+      if (exact_distance(p, before) <= most) continue;
       ++probes;
       CHECK(region_at(before, faces_before, p) == region_at(after, faces_after, p));
     }

@@ -329,7 +329,7 @@ Pslg random_outline(Random& random) {
 }
 
 /// A rule of distances, a jump, or what changes everywhere.
-std::string random_rule(Random& random) {
+std::string random_size_rule(Random& random) {
   const auto number = [&](double low, double high) { return text_of(uniform(random, low, high)); };
   const std::string near = number(0.004, 0.01), far = number(0.03, 0.08);
   switch (random() % 6) {
@@ -393,7 +393,7 @@ TEST_CASE("in any outline no triangle is larger than a rule asks for, and meshes
   double made = 0, needed = 0;
   for (int i = 0; i < case_count(16); ++i) {
     const Pslg domain = random_outline(random);
-    const std::string rule = random_rule(random);
+    const std::string rule = random_size_rule(random);
     std::optional<double> gradation;
     if (random() % 2 == 0) gradation = uniform(random, 0.1, 0.35);
     CAPTURE(i);

@@ -142,7 +142,7 @@ class Oracle {
   std::vector<Ball> balls_;
 };
 
-Box box_of(const OutlineSegments& outline) {
+Box box_around(const OutlineSegments& outline) {
   Box box;
   for (const Segment& s : outline) box.extend(Box::around(s.a, s.b));
   return box;
@@ -159,7 +159,7 @@ TEST_CASE("widths are those of the balls that fit into an outline") {
     const Oracle oracle(outline);
     const LocalWidth width(outline);
     for (int k = 0; k < 60; ++k) {
-      const Point p = somewhere_in(random, box_of(outline));
+      const Point p = somewhere_in(random, box_around(outline));
       if (!is_inside(outline, p)) continue;
       CAPTURE(p.x);
       CAPTURE(p.y);
@@ -253,7 +253,7 @@ TEST_CASE("widths depend neither on the order of segments nor on questions befor
     std::ranges::shuffle(outline, random);
     const LocalWidth other(outline);
     for (int k = 0; k < 200; ++k) {
-      const Point p = somewhere_in(random, box_of(outline));
+      const Point p = somewhere_in(random, box_around(outline));
       REQUIRE(width.at(p) == other.at(p));
     }
   }
@@ -268,7 +268,7 @@ TEST_CASE("within smaller and smaller boxes widths stay the same, and bounds hol
     const auto whole = std::make_shared<const LocalWidth>(outline);
     for (int k = 0; k < 12; ++k) {
       std::shared_ptr<const PlaneFunction> function = whole;
-      const Point target = somewhere_in(random, box_of(outline));
+      const Point target = somewhere_in(random, box_around(outline));
       Box box = Box::around(target, target, uniform(random, 0.5, 2));
       for (int depth = 0; depth < 16; ++depth, ++boxes) {
         if (auto less = function->within(box); less != nullptr) function = std::move(less), ++narrowed;

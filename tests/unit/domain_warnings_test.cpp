@@ -22,7 +22,7 @@ void add_chain(Pslg& pslg, std::initializer_list<Point> points, bool closed) {
   if (closed) pslg.segments.push_back({first + count - 1, first, 1});
 }
 
-Pslg square() {
+Pslg plain_square() {
   Pslg pslg;
   add_chain(pslg, {{0, 0}, {4, 0}, {4, 4}, {0, 4}}, true);
   return pslg;
@@ -31,7 +31,7 @@ Pslg square() {
 }  // namespace
 
 TEST_CASE("a chain outside the boundary is left out with a warning") {
-  Pslg pslg = square();
+  Pslg pslg = plain_square();
   CHECK(warnings_of(pslg).empty());
   add_chain(pslg, {{5, 0}, {6, 1}, {6, 2}}, false);
   REQUIRE(warnings_of(pslg).size() == 1);
@@ -42,7 +42,7 @@ TEST_CASE("a chain outside the boundary is left out with a warning") {
 }
 
 TEST_CASE("an outline that is open beside a closed ring is named with its gap") {
-  Pslg pslg = square();
+  Pslg pslg = plain_square();
   add_chain(pslg, {{-10, -10}, {10, -10}, {10, 10}, {-10, 10}, {-10, -9.5}}, false);
   REQUIRE(warnings_of(pslg).size() == 1);
   CHECK(warnings_of(pslg)[0] ==
@@ -56,7 +56,7 @@ TEST_CASE("an outline that is open beside a closed ring is named with its gap") 
 }
 
 TEST_CASE("a chain in a hole is left out with a warning") {
-  Pslg pslg = square();
+  Pslg pslg = plain_square();
   add_chain(pslg, {{1, 1}, {3, 1}, {3, 3}, {1, 3}}, true);
   add_chain(pslg, {{2, 2}, {2.5, 2.5}}, false);
   pslg.holes = {{1.5, 2.5}};
@@ -65,7 +65,7 @@ TEST_CASE("a chain in a hole is left out with a warning") {
 }
 
 TEST_CASE("regions that meet through a gap are named with the gap, in any order of the segments") {
-  Pslg pslg = square();
+  Pslg pslg = plain_square();
   add_chain(pslg, {{1, 1}, {3, 1}, {3, 3}, {1, 3}}, false);
   pslg.regions = {{{2, 2}, 1, 0.001}, {{0.5, 0.5}, 2, 1}};
   for (int order = 0; order < 2; ++order) {
@@ -79,7 +79,7 @@ TEST_CASE("regions that meet through a gap are named with the gap, in any order 
 }
 
 TEST_CASE("rings that are neither holes nor regions are warned of") {
-  Pslg pslg = square();
+  Pslg pslg = plain_square();
   add_chain(pslg, {{1, 1}, {2, 1}, {2, 2}}, true);
   REQUIRE(warnings_of(pslg).size() == 1);
   CHECK(warnings_of(pslg)[0].starts_with("1 closed ring inside the domain, at vertex 5 (1, 1)"));
@@ -95,7 +95,7 @@ TEST_CASE("rings that are neither holes nor regions are warned of") {
 }
 
 TEST_CASE("segments that divide the domain from border to border are no rings") {
-  Pslg pslg = square();
+  Pslg pslg = plain_square();
   for (const double at : {1.0, 2.0, 3.0}) {
     add_chain(pslg, {{at, 0}, {at, 4}}, false);
     add_chain(pslg, {{0, at}, {4, at}}, false);

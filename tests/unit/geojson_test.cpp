@@ -39,7 +39,7 @@ double meridian_arc(double latitude) {
   return sum * h / 3;
 }
 
-std::string message_of(const std::string& text) {
+std::string error_of_text(const std::string& text) {
   return error_text<InputError>([&] { static_cast<void>(parse_geojson_input("coast.geojson", text)); });
 }
 
@@ -166,13 +166,13 @@ TEST_CASE("degrees become meters in the zone of their middle") {
   CHECK(warnings.empty());
   REQUIRE(pslg.points.size() == 3);
   CHECK(pslg.points[0] == utm(-76, 37, {18, true}));
-  CHECK(message_of(polygon("[" + kSquare.substr(0, kSquare.size() - 1) + ",[500000,1]]]"))
+  CHECK(error_of_text(polygon("[" + kSquare.substr(0, kSquare.size() - 1) + ",[500000,1]]]"))
             .find("no longitude and latitude") != std::string::npos);
-  CHECK(message_of(polygon("[[[-60,0],[60,0],[60,1],[-60,0]]]")).find("60 degrees from its middle") !=
+  CHECK(error_of_text(polygon("[[[-60,0],[60,0],[60,1],[-60,0]]]")).find("60 degrees from its middle") !=
         std::string::npos);
-  CHECK(message_of(polygon("[[[110,0],[140,0],[-170,0],[-130,1],[110,0]]]")).find("60 degrees from its middle") !=
+  CHECK(error_of_text(polygon("[[[110,0],[140,0],[-170,0],[-130,1],[110,0]]]")).find("60 degrees from its middle") !=
         std::string::npos);
-  CHECK(message_of(polygon("[[[361,0],[362,0],[362,1],[361,0]]]")).find("no longitude") != std::string::npos);
+  CHECK(error_of_text(polygon("[[[361,0],[362,0],[362,1],[361,0]]]")).find("no longitude") != std::string::npos);
 }
 
 TEST_CASE("where no zone serves the plane is stereographic, around the middle or a pole") {
@@ -559,12 +559,12 @@ TEST_CASE("names belong to the region or the marker that a feature has by its nu
 }
 
 TEST_CASE("what is wrong is named, with the line or the feature") {
-  CHECK(message_of("{\"type\":\n\"Feature\",\n,}").starts_with("coast.geojson:3: is not valid JSON"));
-  CHECK(message_of("").starts_with("coast.geojson:1: is not valid JSON"));
-  CHECK(message_of("[1, 2]").find("has no type") != std::string::npos);
-  CHECK(message_of(planar("")).find("no geometry") != std::string::npos);
+  CHECK(error_of_text("{\"type\":\n\"Feature\",\n,}").starts_with("coast.geojson:3: is not valid JSON"));
+  CHECK(error_of_text("").starts_with("coast.geojson:1: is not valid JSON"));
+  CHECK(error_of_text("[1, 2]").find("has no type") != std::string::npos);
+  CHECK(error_of_text(planar("")).find("no geometry") != std::string::npos);
   const auto second = [](const std::string& feature) {
-    return message_of(planar(polygon("[" + kSquare + "]") + "," + feature));
+    return error_of_text(planar(polygon("[" + kSquare + "]") + "," + feature));
   };
   CHECK(second("7").find("feature 2 has no type") != std::string::npos);
   CHECK(second(polygon("[[[0,0],[1,\"1\"],[0,1]]]")).find("no array of two numbers") != std::string::npos);
@@ -576,9 +576,9 @@ TEST_CASE("what is wrong is named, with the line or the feature") {
         std::string::npos);
   std::string deep = R"({"type": "Point", "coordinates": [0, 0]})";
   for (int i = 0; i < 20; ++i) deep = R"({"type": "GeometryCollection", "geometries": [)" + deep + "]}";
-  CHECK(message_of(deep).find("nested too deeply") != std::string::npos);
-  CHECK(message_of("{\"type\": \"Point\", \"coordinates\": [1e999, 0]}") != "no error");
-  CHECK(message_of(std::string(100'000, '[')) != "no error");
+  CHECK(error_of_text(deep).find("nested too deeply") != std::string::npos);
+  CHECK(error_of_text("{\"type\": \"Point\", \"coordinates\": [1e999, 0]}") != "no error");
+  CHECK(error_of_text(std::string(100'000, '[')) != "no error");
 }
 
 TEST_CASE("files with random edits are read, or refused with an InputError") {
@@ -602,7 +602,7 @@ TEST_CASE("files with random edits are read, or refused with an InputError") {
       }
       if (text.empty()) break;
     }
-    accepted += message_of(text) == "no error" ? 1 : 0;
+    accepted += error_of_text(text) == "no error" ? 1 : 0;
   }
   CHECK(accepted > 100);
   CHECK(accepted < 4900);

@@ -28,20 +28,20 @@ std::string refused(PlaceKind place, const std::function<void(Request&)>& change
 }  // namespace
 
 TEST_CASE("the defaults are valid everywhere") {
-  for (const PlaceKind place : {kOnePiece, kSubdomains, kRanks, kSimulated})
+  for (const PlaceKind place : {kOnePiece, job::kSubdomains, kRanks, kSimulated})
     CHECK(refused(place, [](Request&) {}).empty());
 }
 
 TEST_CASE("keys that do not apply are rejected, never ignored") {
   const auto policy = [](Request& r) { r.balance.policy = "stealing"; };
   CHECK(refused(kOnePiece, policy) == "balance.policy");
-  CHECK(refused(kSubdomains, policy) == "balance.policy");
+  CHECK(refused(job::kSubdomains, policy) == "balance.policy");
   CHECK(refused(kRanks, policy).empty());
   CHECK(refused(kSimulated, policy).empty());
   CHECK(refused(kOnePiece, [](Request& r) { r.mapping.speeds = {1, 2, 3}; }) == "mapping.speeds");
   CHECK(refused(kOnePiece, [](Request& r) { r.balance.parameters = {{"foo", "one"}}; }) == "balance.parameters");
   CHECK(refused(kOnePiece, [](Request& r) { r.run.sleep = true; }) == "run.sleep");
-  CHECK(refused(kSubdomains, [](Request& r) { r.run.sleep = true; }).empty());
+  CHECK(refused(job::kSubdomains, [](Request& r) { r.run.sleep = true; }).empty());
   CHECK(refused(kRanks, [](Request& r) { r.limits.keep_incomplete = true; }) == "limits.keep-incomplete");
   CHECK(refused(kRanks, [](Request& r) { r.cluster.latency = 1; }).empty());  // a file may serve both kinds of ranks
   CHECK(refused(kOnePiece, [](Request& r) { r.cluster.latency = 1; }) == "cluster.latency");
@@ -50,7 +50,7 @@ TEST_CASE("keys that do not apply are rejected, never ignored") {
 
 TEST_CASE("every key that does not apply at a place is rejected there") {
   for (const Key& key : keys())
-    for (const PlaceKind place : {kOnePiece, kSubdomains, kRanks, kSimulated}) {
+    for (const PlaceKind place : {kOnePiece, job::kSubdomains, kRanks, kSimulated}) {
       const auto* const number = std::get_if<double>(&key.standard);
       if ((key.places & place) != 0 || number == nullptr) continue;
       CAPTURE(key.name);
@@ -61,7 +61,7 @@ TEST_CASE("every key that does not apply at a place is rejected there") {
 
 TEST_CASE("values set by a program have the ranges of the command line") {
   CHECK(refused(kOnePiece, [](Request& r) { r.bounds.angle = 35; }) == "bounds.angle");
-  CHECK(refused(kSubdomains, [](Request& r) { r.decomposition.skew = 5; }) == "decomposition.skew");
+  CHECK(refused(job::kSubdomains, [](Request& r) { r.decomposition.skew = 5; }) == "decomposition.skew");
   CHECK(refused(kRanks, [](Request& r) { r.cluster.drag = {1, 0}; }) == "cluster.drag");
 }
 
@@ -73,8 +73,9 @@ TEST_CASE("contradictory values are rejected") {
   CHECK(refused(kOnePiece, [](Request& r) { r.input.file = r.input.generator = "pipe"; }) == "input.generate");
   CHECK(refused(kOnePiece, [](Request& r) { r.input.generator = "pip"; }) == "input.generate");
   CHECK(refused(kOnePiece, [](Request& r) { r.input.parameters = {{"x", "1"}}; }) == "input.parameters");
-  CHECK(refused(kSubdomains, [](Request& r) { r.decomposition.file = "a.parts", r.decomposition.subdomains = 3; }) ==
-        "decomposition.file");
+  CHECK(refused(job::kSubdomains, [](Request& r) {
+          r.decomposition.file = "a.parts", r.decomposition.subdomains = 3;
+        }) == "decomposition.file");
   CHECK(refused(kRanks, [](Request& r) { r.mapping.speeds = {1}, r.mapping.by_speed = true; }) == "mapping.by-speed");
   CHECK(refused(kSimulated, [](Request& r) { r.cluster.ranks = 0; }) == "cluster.ranks");
   CHECK(refused(kSimulated, [](Request& r) { r.cluster.drag = {1, 1}; }) == "cluster.drag");
@@ -90,12 +91,12 @@ TEST_CASE("what a run in rounds cannot have is rejected, and so is what only it 
   };
   CHECK(refused_in_rounds(kSimulated, [](Request& r) { r.cluster.ranks = 2; }) == "run.method");
   CHECK(refused_in_rounds(kRanks, [](Request&) {}) == "run.method");
-  CHECK(refused_in_rounds(kSubdomains, [](Request& r) { r.decomposition.subdomains = 1; }) == "run.method");
-  CHECK(refused_in_rounds(kSubdomains, [](Request& r) { r.mapping.speeds = {1, 2}; }) == "mapping.speeds");
-  CHECK(refused_in_rounds(kSubdomains, [](Request& r) { r.run.checkpoint = "-"; }) == "run.checkpoint");
-  CHECK(refused_in_rounds(kSubdomains, [](Request& r) { r.run.every = 5; }) == "run.every");
-  CHECK(refused(kSubdomains, [](Request& r) { r.run.checkpoint = "a.kept"; }) == "run.checkpoint");
-  CHECK(refused(kSubdomains, [](Request& r) { r.run.resume = "a.kept"; }) == "run.resume");
+  CHECK(refused_in_rounds(job::kSubdomains, [](Request& r) { r.decomposition.subdomains = 1; }) == "run.method");
+  CHECK(refused_in_rounds(job::kSubdomains, [](Request& r) { r.mapping.speeds = {1, 2}; }) == "mapping.speeds");
+  CHECK(refused_in_rounds(job::kSubdomains, [](Request& r) { r.run.checkpoint = "-"; }) == "run.checkpoint");
+  CHECK(refused_in_rounds(job::kSubdomains, [](Request& r) { r.run.every = 5; }) == "run.every");
+  CHECK(refused(job::kSubdomains, [](Request& r) { r.run.checkpoint = "a.kept"; }) == "run.checkpoint");
+  CHECK(refused(job::kSubdomains, [](Request& r) { r.run.resume = "a.kept"; }) == "run.resume");
 }
 
 TEST_CASE("the place of a mesh follows from the entry point and the request") {
@@ -103,10 +104,10 @@ TEST_CASE("the place of a mesh follows from the entry point and the request") {
   CHECK(place_of(request, kMesh, false) == kOnePiece);
   CHECK(place_of(request, kMesh, true) == kRanks);
   request.run.method = Method::kRounds;
-  CHECK(place_of(request, kMesh, false) == kSubdomains);
+  CHECK(place_of(request, kMesh, false) == job::kSubdomains);
   request.run.method = Method::kCoupled;
   request.decomposition.subdomains = 4;
-  CHECK(place_of(request, kMesh, false) == kSubdomains);
+  CHECK(place_of(request, kMesh, false) == job::kSubdomains);
   CHECK(place_of(request, kExperiment, true) == kSimulated);
   request.cluster.kind = ClusterKind::kReal;
   CHECK(place_of(request, kExperiment, false) == kRanks);

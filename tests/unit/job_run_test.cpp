@@ -66,7 +66,7 @@ Made in_one_piece(Request request) {
 }
 
 Made by_threads(const Request& request, std::int32_t threads = 1) {
-  return made_at(Here(kSubdomains, threads), request);
+  return made_at(Here(job::kSubdomains, threads), request);
 }
 
 Made simulated(Request request, std::int32_t ranks) {

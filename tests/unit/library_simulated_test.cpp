@@ -16,7 +16,7 @@ using namespace driftmesh;
 
 namespace {
 
-const Pslg& plate() {
+const Pslg& plate_with_hole() {
   static const Pslg input = generate_rectangle_hole({});
   return input;
 }
@@ -29,7 +29,7 @@ const SimulatedCluster kUneven{.rank_speeds = {1e5, 1e5, 4e5}};
 
 std::string error_of(const MeshOptions& options, const SimulatedCluster& cluster) {
   try {
-    static_cast<void>(simulate(plate(), options, cluster));
+    static_cast<void>(simulate(plate_with_hole(), options, cluster));
   } catch (const Error& error) {
     return error.what();
   }
@@ -39,7 +39,7 @@ std::string error_of(const MeshOptions& options, const SimulatedCluster& cluster
 }  // namespace
 
 TEST_CASE("a simulated run is the same again, and shorter with a policy") {
-  const SimulatedRun none = simulate(plate(), eager("none"), kUneven);
+  const SimulatedRun none = simulate(plate_with_hole(), eager("none"), kUneven);
   CHECK(none.moves.empty());
   CHECK(none.owners_before == none.owners_after);
   CHECK(none.owners_after.size() == 40);
@@ -47,11 +47,11 @@ TEST_CASE("a simulated run is the same again, and shorter with a policy") {
   CHECK(none.ranks.size() == 3);
   CHECK(none.ideal_seconds < none.seconds);
   CHECK(none.message_bytes > none.messages);
-  const SimulatedRun greedy = simulate(plate(), eager("greedy"), kUneven);
+  const SimulatedRun greedy = simulate(plate_with_hole(), eager("greedy"), kUneven);
   CHECK_FALSE(greedy.moves.empty());
   CHECK(greedy.triangles == none.triangles);
   CHECK(greedy.seconds < none.seconds);
-  CHECK(greedy.seconds == simulate(plate(), eager("greedy"), kUneven).seconds);
+  CHECK(greedy.seconds == simulate(plate_with_hole(), eager("greedy"), kUneven).seconds);
 }
 
 TEST_CASE("a policy of the caller moves subdomains of a simulated run") {
@@ -62,7 +62,7 @@ TEST_CASE("a policy of the caller moves subdomains of a simulated run") {
       if (!s.fixed && s.owner != Rank{2} && s.turn > 0) moves.push_back({s.id, Rank{2}});
     return moves;
   });
-  const SimulatedRun run = simulate(plate(), options, kUneven);
+  const SimulatedRun run = simulate(plate_with_hole(), options, kUneven);
   REQUIRE_FALSE(run.moves.empty());
   CHECK(run.moves.front().from != Rank{2});
   CHECK(run.moves.front().to == Rank{2});

@@ -19,20 +19,20 @@ using namespace driftmesh::test;
 
 namespace {
 
-using Place = std::array<double, 2>;
+using Spot = std::array<double, 2>;
 
 /// All that belongs to a point, a triangle and an edge, by places in the plane instead of numbers.
 struct Content {
-  std::multimap<Place, std::tuple<std::int32_t, std::vector<double>>> points;
-  std::multimap<std::array<Place, 3>, std::tuple<double, std::int32_t>> triangles;
-  std::vector<std::tuple<Place, Place, std::int32_t>> edges;
+  std::multimap<Spot, std::tuple<std::int32_t, std::vector<double>>> points;
+  std::multimap<std::array<Spot, 3>, std::tuple<double, std::int32_t>> triangles;
+  std::vector<std::tuple<Spot, Spot, std::int32_t>> edges;
   friend bool operator==(const Content&, const Content&) = default;
 };
 
 Content content_of(const Mesh& mesh) {
   const auto at = [&](std::int32_t v) {
     const Point& p = mesh.points.at(static_cast<std::size_t>(v));
-    return Place{p.x, p.y};
+    return Spot{p.x, p.y};
   };
   Content content;
   const auto each = static_cast<std::size_t>(mesh.attributes_per_point);

@@ -30,7 +30,7 @@ Pslg domain() {
   return pslg;
 }
 
-std::array<double, 2> linear(const Point& p) {
+std::array<double, 2> linear_pair(const Point& p) {
   return {3 * p.x - 2 * p.y + 1, -p.x + 0.25 * p.y};
 }
 
@@ -59,13 +59,14 @@ Mesh shuffled(Mesh mesh, unsigned seed) {
 TEST_CASE("Attributes that are linear in the input are so in the mesh") {
   Pslg pslg = domain();
   pslg.attributes_per_point = 2;
-  for (const Point& p : pslg.points) pslg.attributes.insert(pslg.attributes.end(), {linear(p)[0], linear(p)[1]});
+  for (const Point& p : pslg.points)
+    pslg.attributes.insert(pslg.attributes.end(), {linear_pair(p)[0], linear_pair(p)[1]});
   const Mesh piece = meshed(pslg).mesh;
   REQUIRE(piece.points.size() > 2 * pslg.points.size());
   double error = 0;
   for (std::size_t v = 0; v < piece.points.size(); ++v)
     for (std::size_t k = 0; k < 2; ++k)
-      error = std::max(error, std::abs(piece.attributes[2 * v + k] - linear(piece.points[v])[k]));
+      error = std::max(error, std::abs(piece.attributes[2 * v + k] - linear_pair(piece.points[v])[k]));
   CHECK(error < 1e-13);
 }
 

@@ -110,10 +110,6 @@ TEST_CASE("random inputs are planar, and the arrangement finds the boundary that
 
 namespace {
 
-GridRing rectangle(std::int64_t x, std::int64_t y, std::int64_t right, std::int64_t top) {
-  return {{x, y}, {right, y}, {right, top}, {x, top}};
-}
-
 double area_of(const std::vector<GridRing>& rings) {
   return static_cast<double>(covered_areas({{rings, {}}}).total);
 }

@@ -48,7 +48,7 @@ Pslg one(const std::vector<Corners>& rings) {
   return pslg;
 }
 
-double area_of(const Triangulation& mesh, int label = -1) {
+double covered_area(const Triangulation& mesh, int label = -1) {
   double area = 0;
   for (const TriangleId t : ids_of(mesh.triangles))
     if (mesh.triangles[t].alive() && (label < 0 || mesh.region[t] == label))
@@ -58,8 +58,8 @@ double area_of(const Triangulation& mesh, int label = -1) {
 
 double area(Pslg pslg) {
   static_cast<void>(repair(pslg));
-  const double area = area_of(triangulate(pslg));
-  CHECK(area_of(triangulate(with_seeds(pslg))) == doctest::Approx(area));
+  const double area = covered_area(triangulate(pslg));
+  CHECK(covered_area(triangulate(with_seeds(pslg))) == doctest::Approx(area));
   return area;
 }
 
@@ -70,7 +70,7 @@ std::string warning(const Pslg& pslg) {
   return all[0];
 }
 
-const Corners kSquare{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+const Corners kPlate{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
 
 Corners box(double x, double y, double w, double h) {
   return {{x, y}, {x + w, y}, {x + w, y + h}, {x, y + h}};
@@ -79,17 +79,17 @@ Corners box(double x, double y, double w, double h) {
 }  // namespace
 
 TEST_CASE("holes over the edge of their polygon, or over each other") {
-  const Pslg crosses = one({kSquare, box(5, 4, 9, 2)});
+  const Pslg crosses = one({kPlate, box(5, 4, 9, 2)});
   CHECK(area(crosses) == doctest::Approx(90));
   CHECK(warning(crosses) == "a hole of feature 1 reaches outside its first ring, where it removes nothing, at (" +
                                 warning(crosses).substr(warning(crosses).rfind('(') + 1));
-  const Pslg overlap = one({kSquare, box(2, 4, 4, 4), box(5, 3, 3, 4)});
+  const Pslg overlap = one({kPlate, box(2, 4, 4, 4), box(5, 3, 3, 4)});
   CHECK(area(overlap) == doctest::Approx(75));
   CHECK(warning(overlap).find("holes of feature 1 overlap at (5.") == 0);
-  const Pslg shared = one({kSquare, box(2, 2, 3, 3), box(5, 2, 3, 3)});
+  const Pslg shared = one({kPlate, box(2, 2, 3, 3), box(5, 2, 3, 3)});
   CHECK(area(shared) == doctest::Approx(82));
   CHECK(warning(shared) == "ring 3 of feature 1 shares an edge with ring 2 at (5, 3.5)");
-  const Pslg at_the_edge = one({kSquare, box(0, 4, 5, 2)});
+  const Pslg at_the_edge = one({kPlate, box(0, 4, 5, 2)});
   CHECK(area(at_the_edge) == doctest::Approx(90));
   CHECK(warning(at_the_edge) == "ring 2 of feature 1 shares an edge with the first at (0, 5)");
 }
@@ -143,8 +143,8 @@ TEST_CASE("snapping takes spikes and slits off rings, which stay chains of segme
   // A slit is closed, a thin hole goes, and so does a thin polygon.
   CHECK(area(snapped(one({{{0, 0}, {10, 0}, {10, 5}, {4, 5}, {10, 5.05}, {10, 10}, {0, 10}}}))) ==
         doctest::Approx(100).epsilon(0.01));
-  CHECK(area(snapped(one({kSquare, box(2, 4, 5, 0.05)}))) == doctest::Approx(100).epsilon(0.01));
-  Pslg beside = one({kSquare});
+  CHECK(area(snapped(one({kPlate, box(2, 4, 5, 0.05)}))) == doctest::Approx(100).epsilon(0.01));
+  Pslg beside = one({kPlate});
   add(beside, {box(20, 0, 5, 0.05)});
   const Pslg found = snapped(beside);
   CHECK(area(found) == doctest::Approx(100).epsilon(0.01));
@@ -152,7 +152,7 @@ TEST_CASE("snapping takes spikes and slits off rings, which stay chains of segme
 }
 
 TEST_CASE("a convex hull in place of polygons is refused") {
-  Pslg square = one({kSquare});
+  Pslg square = one({kPlate});
   CHECK_THROWS_WITH_AS(static_cast<void>(repair(square, "x", {.hull = true})),
                        "x: has polygons, which are the domain, and a convex hull would be another; leave out the hull, "
                        "or give the outline as lines",
@@ -162,21 +162,21 @@ TEST_CASE("a convex hull in place of polygons is refused") {
 TEST_CASE("polygons that overlap are one domain, in the region of the last that has one") {
   Pslg two;
   two.regions = {{{}, 5, 0}, {{}, 6, 0}};
-  add(two, {kSquare}, 0);
+  add(two, {kPlate}, 0);
   add(two, {box(5, 0, 10, 10)}, 1);
   add(two, {box(0, 0, 1, 10)});
   const std::string expected = "feature 1 and feature 2 overlap at (";
   CHECK(warning(two).substr(0, expected.size()) == expected);
   static_cast<void>(repair(two));
   const Triangulation mesh = triangulate(two);
-  CHECK(area_of(mesh, 0) == 0);
-  CHECK(area_of(mesh, 1) == doctest::Approx(50));
-  CHECK(area_of(mesh, 2) == doctest::Approx(100));
+  CHECK(covered_area(mesh, 0) == 0);
+  CHECK(covered_area(mesh, 1) == doctest::Approx(50));
+  CHECK(covered_area(mesh, 2) == doctest::Approx(100));
   const Triangulation seeded = triangulate(with_seeds(two));
-  CHECK(area_of(seeded) == doctest::Approx(150));
+  CHECK(covered_area(seeded) == doctest::Approx(150));
 
   Pslg parts;
-  add(parts, {kSquare}, -1, 7);
+  add(parts, {kPlate}, -1, 7);
   add(parts, {box(5, 0, 10, 10)}, -1, 7);
   CHECK(warning(parts).find("polygons of feature 7 overlap at (") == 0);
   parts.polygons[1].feature = 8;
@@ -184,7 +184,7 @@ TEST_CASE("polygons that overlap are one domain, in the region of the last that 
 }
 
 TEST_CASE("lines bound nothing where there are polygons, and seeds apply besides") {
-  Pslg pslg = one({kSquare});
+  Pslg pslg = one({kPlate});
   add(pslg, {box(20, 0, 10, 10)});
   for (const Corners& line : {Corners{{10, 0}, {20, 0}}, Corners{{10, 10}, {20, 10}}, Corners{{2, 0}, {2, 10}}})
     pslg.segments.push_back({number(pslg, line[0]), number(pslg, line[1]), 5});
@@ -194,7 +194,7 @@ TEST_CASE("lines bound nothing where there are polygons, and seeds apply besides
   CHECK(area(pslg) == doctest::Approx(180));
   pslg.regions = {{{5, 5}, 3, 0}};
   static_cast<void>(repair(pslg));
-  CHECK(area_of(triangulate(pslg), 1) == doctest::Approx(80));
+  CHECK(covered_area(triangulate(pslg), 1) == doctest::Approx(80));
 }
 
 TEST_CASE("a polygon that covers nothing is warned of, and refused if nothing else is there") {
@@ -226,14 +226,14 @@ TEST_CASE("rings follow their segments when these are split and their points are
 }
 
 TEST_CASE("rings that are not made of segments, and regions that do not exist, are refused") {
-  Pslg pslg = one({kSquare});
+  Pslg pslg = one({kPlate});
   pslg.segments.pop_back();
   CHECK_THROWS_WITH_AS((void)repair(pslg), doctest::Contains("feature 1 has a ring with an edge that is no segment"),
                        InputError);
-  pslg = one({kSquare});
+  pslg = one({kPlate});
   pslg.polygons[0].rings[0].push_back(4);
   CHECK_THROWS_WITH_AS((void)repair(pslg), doctest::Contains("names a vertex that does not exist"), InputError);
-  pslg = one({kSquare});
+  pslg = one({kPlate});
   pslg.polygons[0].region = 0;
   CHECK_THROWS_WITH_AS((void)repair(pslg), doctest::Contains("names a region that does not exist"), InputError);
 }
@@ -255,7 +255,7 @@ TEST_CASE("simplification takes corners from rings, and rings from polygons") {
 
 // Rings around each other: outside, the first polygon, its hole, and the second polygon in that.
 TEST_CASE("the flood decides by the rings that the walls belong to, whatever the order of the walls") {
-  Pslg pslg = one({kSquare, box(2, 2, 6, 6)});
+  Pslg pslg = one({kPlate, box(2, 2, 6, 6)});
   add(pslg, {box(4, 4, 2, 2)});
   const auto wall = [](int outer, int inner) { return Wall{AreaId{inner}, AreaId{outer}}; };  // inner is left
   std::vector<Wall> walls;
@@ -270,7 +270,7 @@ TEST_CASE("the flood decides by the rings that the walls belong to, whatever the
 }
 
 TEST_CASE("a ring whose points are merged into one covers nothing") {
-  Pslg pslg = one({kSquare});
+  Pslg pslg = one({kPlate});
   pslg.points.insert(pslg.points.end(), {{20, 20}, {20, 20}, {20, 20 + 1e-15}});
   for (const auto& [a, b] : {std::pair(4, 5), std::pair(5, 6), std::pair(6, 4)}) pslg.segments.push_back({a, b, 1});
   pslg.polygons.push_back({{{4, 5, 6}}, -1, 2});

@@ -35,7 +35,7 @@ std::vector<std::vector<float>> rows_of(const std::string& text) {
   return rows;
 }
 
-std::string message_of(const std::string& text) {
+std::string error_of_rows(const std::string& text) {
   return error_text<InputError>([&] { static_cast<void>(rows_of(text)); });
 }
 
@@ -76,7 +76,7 @@ TEST_CASE("entries of the header come in any order and case, and values may brea
 TEST_CASE("a damaged grid is refused with the line of the damage") {
   const auto says = [](const std::string& text, const std::string& part) {
     INFO(text);
-    CHECK_MESSAGE(message_of(text).find(part) != std::string::npos, message_of(text));
+    CHECK_MESSAGE(error_of_rows(text).find(part) != std::string::npos, error_of_rows(text));
   };
   says(kHeader + "1 2 3\n4 x 6\n", "depth.asc:7: 'x' is not a value");
   says(kHeader + "1 2 3\n4 1,5 6\n", "depth.asc:7: '1,5' is not a value");

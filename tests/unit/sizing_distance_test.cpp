@@ -58,8 +58,8 @@ double one_by_one(const Pslg& pslg, const std::set<std::int32_t>& markers, const
   return least;
 }
 
-/// The square of side 4 at the origin, with markers 1 to 4 counterclockwise from the bottom.
-Pslg square() {
+/// The marked_square of side 4 at the origin, with markers 1 to 4 counterclockwise from the bottom.
+Pslg marked_square() {
   Pslg pslg;
   pslg.points = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
   pslg.segments = {{0, 1, 1}, {1, 2, 2}, {2, 3, 3}, {3, 0, 4}};
@@ -128,7 +128,7 @@ TEST_CASE("the bounds over a box hold every distance in it, and are no wider tha
 }
 
 TEST_CASE("bounds of distances over boxes without an end") {
-  const Pslg pslg = square();
+  const Pslg pslg = marked_square();
   const SegmentDistance distance(pslg, {});
   constexpr double kFar = std::numeric_limits<double>::infinity();
   for (const Box& box : {Box{{-kFar, -kFar}, {kFar, kFar}}, Box{{0, 0}, {kFar, 1}}}) {
@@ -138,7 +138,7 @@ TEST_CASE("bounds of distances over boxes without an end") {
 }
 
 TEST_CASE("an expression uses distances to segments with markers") {
-  const Pslg pslg = square();
+  const Pslg pslg = marked_square();
   constexpr double kFar = std::numeric_limits<double>::infinity();
   const auto value = [&](const std::string& expression, const Point& p) {
     return ExpressionField(expression, 0, kFar, &pslg).edge_length(p);
@@ -151,7 +151,7 @@ TEST_CASE("an expression uses distances to segments with markers") {
 }
 
 TEST_CASE("lengths that fall to a segment between the corners of a triangle are found") {
-  Pslg pslg = square();
+  Pslg pslg = marked_square();
   pslg.points.insert(pslg.points.end(), {{1, 2}, {1.001, 2}});
   pslg.segments.push_back({4, 5, 7});
   const auto field = make_size_field(
@@ -164,7 +164,7 @@ TEST_CASE("lengths that fall to a segment between the corners of a triangle are 
 }
 
 TEST_CASE("a size field measures distances in the input of its options") {
-  const Pslg pslg = square();
+  const Pslg pslg = marked_square();
   SizingOptions options{.expression = "0.1 + distance(1)", .gradation = 0.25, .longest = 0.8, .spacing = 0.002};
   options.domain = {{0, 0}, {4, 4}};
   options.input = &pslg;
@@ -175,7 +175,7 @@ TEST_CASE("a size field measures distances in the input of its options") {
 }
 
 TEST_CASE("errors in distances name the column, and the markers that exist") {
-  const Pslg pslg = square();
+  const Pslg pslg = marked_square();
   CHECK(mentions(error_of("1 + distance(1.5)", &pslg), "column 14: the arguments of distance are markers"));
   CHECK(mentions(error_of("1 + distance(x)", &pslg), "column 14: the arguments"));
   CHECK(mentions(error_of("1 + distance(1", &pslg), "column 15: the arguments"));

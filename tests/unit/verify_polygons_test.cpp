@@ -50,10 +50,6 @@ Pslg given(const std::vector<GridPolygon>& polygons) {
   return given(RandomPolygons{polygons, {}, 1});
 }
 
-GridRing rectangle(std::int64_t x, std::int64_t y, std::int64_t right, std::int64_t top) {
-  return {{x, y}, {right, y}, {right, top}, {x, top}};
-}
-
 Domain domain_of(const Pslg& input, const std::vector<Point>& places = {}) {
   std::optional<Pslg> rings = rings_alone(input);
   REQUIRE(rings);
