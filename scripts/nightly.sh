@@ -9,6 +9,7 @@
 #                      [--properties N]                                   so many runs of the property tests (20; 0: none)
 #                      [--no-threads]                                     without the thread sanitizer
 #                      [--no-night]                                       without the tests with the label `night`
+#                      [--no-alone]                                       without compiling every header and source alone
 #                      [--no-wheel]                                       without building the wheel, and trying it, which take root's rights
 #                      [--no-mutation]                                    without asking which mutated sources the tests miss
 #                      [--mutants-program PATH] [--program PATH]          without a build first
@@ -24,6 +25,7 @@ program=
 mutants_program=
 threads=yes
 night=yes
+alone=yes
 wheel=yes
 mutation=yes
 properties=20
@@ -41,6 +43,7 @@ while [[ $# -gt 0 ]]; do
       ;;
     --no-threads) threads=no ;;
     --no-night) night=no ;;
+    --no-alone) alone=no ;;
     --no-wheel) wheel=no ;;
     --no-mutation) mutation=no ;;
     --program)
@@ -52,7 +55,7 @@ while [[ $# -gt 0 ]]; do
       shift
       ;;
     -h | --help)
-      sed -n '2,15s/^# \{0,1\}//p' "$0"
+      sed -n '2,16s/^# \{0,1\}//p' "$0"
       exit 0
       ;;
     *)
@@ -74,6 +77,11 @@ if [[ $properties -gt 0 ]]; then
   cmake --preset release -Wno-dev && cmake --build --preset release -j "$jobs"
   say "Property tests with new seeds, $properties runs of each"
   DRIFTMESH_SEED=random ctest --preset release -L property --no-tests=error -j "$jobs" --repeat "until-fail:$properties" || result=1
+fi
+if [[ $alone == yes ]]; then
+  cmake --preset release -Wno-dev
+  say "Every header and source alone"
+  tests/structure/check_alone.py --sources . build/release || result=1
 fi
 if [[ $night == yes ]]; then
   cmake --preset asan-ubsan -DDRIFTMESH_SANITIZE_SCOPES=ON -Wno-dev && cmake --build --preset asan-ubsan -j "$jobs"

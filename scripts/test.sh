@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds with warnings as errors and runs the functional tests. The last line is "N passed, N failed"; the exit code is 0 if none
 # failed. What is not tested for want of a program is named above it.
-#   scripts/test.sh [--all]        --all: the long tests, too (headers alone, installation, documents, other programs, models, browser),
+#   scripts/test.sh [--all]        --all: the long tests, too (installation, documents, other programs, models, browser),
 #                                  then those without it under the address and undefined-behavior sanitizers, and clang-tidy
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
