@@ -23,8 +23,7 @@ namespace {
 struct RunCommand {
   std::string file;
   std::vector<std::string> settings;
-  std::string folder;
-  bool allow_outside = false;
+  study::ExperimentRuns::Options results;
   bool allow_code = false;
   bool dry = false;
   bool quiet = false;
@@ -53,10 +52,11 @@ std::string line_of(const RunCommand& command) {
 
 /// `cluster`: for real ranks; null if none of the runs needs them.
 void make_all(const RunCommand& command, const config::Experiment& file, study::RealCluster* cluster) {
-  study::ExperimentRuns runs(file, line_of(command), command.folder, command.allow_outside, cluster);
+  study::ExperimentRuns runs(file, line_of(command), command.results, cluster);
   ProgressLine progress(!command.quiet);
+  if (command.results.resume) progress.write(fmt::format("{} of {} runs are there\n", runs.made(), runs.size()));
   RunView view(progress);
-  for (std::size_t i = 0; i < runs.size(); ++i) {
+  for (std::size_t i = runs.made(); i < runs.size(); ++i) {
     progress.begin(fmt::format("run {} of {}", i + 1, runs.size()));
     runs.make(i, view);
   }
@@ -113,11 +113,16 @@ cli::Command run_command() {
                    .help = "Folder for the results",
                    .standard = "NAME.runs",
                    .completes = cli::Option::Completes::kFolder,
-                   .take = cli::into(command->folder)},
+                   .take = cli::into(command->results.folder)},
+                  {.kind = cli::Option::Kind::kFlag,
+                   .name = "resume",
+                   .help = "Keep the runs of this experiment that the folder has, as an end before its time left them, "
+                           "and make the others",
+                   .take = cli::into(command->results.resume)},
                   {.kind = cli::Option::Kind::kFlag,
                    .name = "allow-outside",
                    .help = "Let the experiment's name, and links in the folder of the results, lead to other folders",
-                   .take = cli::into(command->allow_outside)},
+                   .take = cli::into(command->results.allow_outside)},
                   allow_code_option(command->allow_code),
                   {.kind = cli::Option::Kind::kFlag,
                    .name = "dry-run",

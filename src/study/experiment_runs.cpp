@@ -9,6 +9,7 @@
 #include "base/atomic_file.hpp"
 #include "base/file_identity.hpp"
 #include "base/file_registry.hpp"
+#include "base/read_file.hpp"
 #include "base/staged_files.hpp"
 #include "config/words.hpp"
 #include "driftmesh/error.hpp"
@@ -63,18 +64,34 @@ void write_lb_statistics(const ExperimentRun& run, const std::filesystem::path& 
 
 }  // namespace
 
-ExperimentRuns::ExperimentRuns(const config::Experiment& file, std::string command, const std::string& folder,
-                               bool allow_outside, RealCluster* cluster)
+ExperimentRuns::ExperimentRuns(const config::Experiment& file, std::string command, const Options& options,
+                               RealCluster* cluster)
     : file_(file),
       command_(std::move(command)),
-      folder_(folder.empty() ? file.base.name + ".runs" : folder),
-      named_(!folder.empty()),
-      allow_outside_(allow_outside),
+      folder_(options.folder.empty() ? file.base.name + ".runs" : options.folder),
+      named_(!options.folder.empty()),
+      allow_outside_(options.allow_outside),
       cluster_(cluster) {
   register_files();
   make_folder(folder_);
-  remove_earlier_results(folder_);
+  if (options.resume)
+    take_earlier_results();
+  else
+    remove_earlier_results(folder_);
   write_file(folder_ / kExperimentFile, config::experiment_text(file_));
+}
+
+/// The table is written after all else of a run, so what it has is whole.
+void ExperimentRuns::take_earlier_results() {
+  const std::string experiment = (folder_ / kExperimentFile).string(), table = (folder_ / kTableFile).string();
+  if (!std::filesystem::exists(experiment)) return;
+  if (read_file(experiment) != config::experiment_text(file_))
+    throw InputError({experiment}, "is not what is to be run now, so that its runs cannot be resumed",
+                     "run it as it was, or leave out --resume, which removes them");
+  if (!std::filesystem::exists(table)) return;
+  std::vector<ExperimentRun> runs;
+  for (std::size_t i = 0; i < size(); ++i) runs.push_back(run_before(i));
+  table_.add_rows(read_file(table), runs);
 }
 
 std::string ExperimentRuns::name_of(std::size_t run) const {
@@ -114,7 +131,7 @@ std::int32_t ExperimentRuns::ranks_of_statistics(const job::Request& request) co
   return request.cluster.kind == job::ClusterKind::kReal ? cluster_->ranks() : ranks_of(job::cluster_of(request));
 }
 
-void ExperimentRuns::make(std::size_t i, job::Watch& watch) {
+ExperimentRun ExperimentRuns::run_before(std::size_t i) const {
   ExperimentRun run;
   run.name = name_of(i);
   run.swept = point_of(i).values;
@@ -122,6 +139,11 @@ void ExperimentRuns::make(std::size_t i, job::Watch& watch) {
   run.request = point_of(i).request;
   run.request.seed += run.repetition;
   run.record.command = command_;
+  return run;
+}
+
+void ExperimentRuns::make(std::size_t i, job::Watch& watch) {
+  ExperimentRun run = run_before(i);
   make_run(run, cluster_, watch);
   write(run);
 }

@@ -15,16 +15,22 @@ namespace driftmesh::study {
 /// The runs of an experiment, made one after the other, and the folder of their results.
 class ExperimentRuns {
  public:
-  /// Registers all files, and removes what an earlier experiment left in the folder. `folder`: if empty, one that is
-  /// named after the experiment. `command`: for the records. `cluster`: for real ranks; null if none of the runs needs
-  /// them. `file` and `cluster` outlive the object. Throws InputError if a result would overwrite an input or, unless
-  /// `allow_outside`, lie elsewhere than its name says; FileError if there can be no such folder.
-  ExperimentRuns(const config::Experiment& file, std::string command, const std::string& folder, bool allow_outside,
-                 RealCluster* cluster);
+  struct Options {
+    std::string folder{};        ///< if empty, one that is named after the experiment
+    bool resume = false;         ///< runs of this experiment that the folder has are not made again
+    bool allow_outside = false;  ///< results may lie elsewhere than their names say
+  };
+  /// Registers all files, and removes what an earlier experiment left in the folder. `command`: for the records.
+  /// `cluster`: for real ranks; null if none of the runs needs them. `file` and `cluster` outlive the object. Throws
+  /// InputError if a result would overwrite an input, lie elsewhere, or take the place of what another experiment left
+  /// that was to be resumed; FileError if there can be no such folder.
+  ExperimentRuns(const config::Experiment& file, std::string command, const Options& options, RealCluster* cluster);
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   [[nodiscard]] std::size_t size() const { return file_.points.size() * repetitions(); }
-  /// Makes a run, and writes what comes of it. Throws what make_run throws.
+  /// How many of them there are already: the first ones.
+  [[nodiscard]] std::size_t made() const { return table_.rows().size(); }
+  /// Makes a run, the one after those that there are, and writes what comes of it. Throws what make_run throws.
   void make(std::size_t run, job::Watch& watch);
   /// The runs made so far.
   [[nodiscard]] const ExperimentTable& table() const { return table_; }
@@ -36,6 +42,8 @@ class ExperimentRuns {
   [[nodiscard]] const config::SweepPoint& point_of(std::size_t run) const { return file_.points[run / repetitions()]; }
   [[nodiscard]] std::string name_of(std::size_t run) const;
   void register_files() const;
+  [[nodiscard]] ExperimentRun run_before(std::size_t run) const;
+  void take_earlier_results();
   void require_inside(const std::string& path, const std::string& folder) const;
   [[nodiscard]] std::int32_t ranks_of_statistics(const job::Request& request) const;
   void write(const ExperimentRun& run);

@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <sstream>
+#include <system_error>
 
+#include "base/from_chars.hpp"
 #include "base/words.hpp"
 #include "job/value.hpp"
 
@@ -38,37 +42,67 @@ bool same_but_policy(const Row& a, const Row& b) {
   });
 }
 
+Row row_without_figures(const ExperimentRun& run) {
+  Row row;
+  row.run = run.name;
+  for (const auto& [key, value] : run.swept) row.swept.emplace_back(key, job::text_of(value));
+  row.repetition = run.repetition;
+  row.policy = run.request.balance.policy;
+  return row;
+}
+
+/// Calls visit(column, value) for each figure that a row is made of; the others follow from them.
+template <typename AnyRow, typename Visit>
+void visit_figures(AnyRow& row, const Visit& visit) {
+  visit("repetition", row.repetition);
+  visit("ranks", row.ranks);
+  visit("subdomains", row.subdomains);
+  visit("triangles", row.triangles);
+  visit("seconds", row.seconds);
+  visit("ideal_seconds", row.ideal_seconds);
+  visit("oracle_seconds", row.oracle_seconds);
+  visit("triangles_per_second", row.rate);
+  visit("efficiency", row.efficiency);
+  visit("cutting_seconds", row.cutting);
+  visit("efficiency_with_cutting", row.efficiency_with_cutting);
+  visit("computing", row.times.computing);
+  visit("sending", row.times.sending);
+  visit("polling", row.times.polling);
+  visit("balancing", row.times.balancing);
+  visit("idle", row.times.idle);
+  visit("splits", row.splits);
+  visit("split_messages", row.split_messages);
+  visit("messages", row.messages);
+  visit("message_bytes", row.message_bytes);
+  visit("hand_offs", row.hand_offs);
+  visit("hand_off_bytes", row.hand_off_bytes);
+  visit("whole_plans", row.whole_plans);
+  visit("whole_plans_kept", row.whole_plans_kept);
+}
+
 Cells all_cells(const Row& row, std::optional<double> recovered) {
   Cells cells{{"run", row.run}};
   cells.insert(cells.end(), row.swept.begin(), row.swept.end());
-  cells.emplace_back("repetition", std::to_string(row.repetition));
-  const auto add = [&](const char* name, const auto& value) { cells.emplace_back(name, fmt::format("{}", value)); };
-  add("ranks", row.ranks);
-  add("subdomains", row.subdomains);
-  add("triangles", row.triangles);
-  add("seconds", row.seconds);
-  add("ideal_seconds", row.ideal_seconds);
-  add("oracle_seconds", row.oracle_seconds);
-  add("triangles_per_second", row.rate);
-  add("efficiency", row.efficiency);
-  add("cutting_seconds", row.cutting);
-  add("efficiency_with_cutting", row.efficiency_with_cutting);
-  cells.emplace_back("recovered", recovered ? fmt::format("{}", *recovered) : "");
-  add("regret", regret(row));
-  add("computing", row.times.computing);
-  add("sending", row.times.sending);
-  add("polling", row.times.polling);
-  add("balancing", row.times.balancing);
-  add("idle", row.times.idle);
-  add("splits", row.splits);
-  add("split_messages", row.split_messages);
-  add("messages", row.messages);
-  add("message_bytes", row.message_bytes);
-  add("hand_offs", row.hand_offs);
-  add("hand_off_bytes", row.hand_off_bytes);
-  add("whole_plans", row.whole_plans);
-  add("whole_plans_kept", row.whole_plans_kept);
+  visit_figures(row, [&](const std::string& column, const auto& value) {
+    cells.emplace_back(column, fmt::format("{}", value));
+    if (column != "efficiency_with_cutting") return;
+    cells.emplace_back("recovered", recovered ? fmt::format("{}", *recovered) : "");
+    cells.emplace_back("regret", fmt::format("{}", regret(row)));
+  });
   return cells;
+}
+
+/// Reads the figures again, from the text of each column. Returns false if one of them is missing or no number.
+bool take_figures(Row& row, const std::map<std::string, std::string>& texts) {
+  bool all = true;
+  visit_figures(row, [&](const char* column, auto& value) {
+    const auto found = texts.find(column);
+    if (found == texts.end()) return void(all = false);
+    const std::string& text = found->second;
+    const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
+    all = all && error == std::errc() && end == text.data() + text.size();
+  });
+  return all;
 }
 
 /// `saved`, `kept`: the texts of what is recovered and of whole plans, if the table has these columns.
@@ -121,6 +155,23 @@ std::string csv_quoted(const std::string& text) {
   return quoted + "\"";
 }
 
+/// The cells of a line that csv_quoted() made; a line that breaks off has fewer.
+std::vector<std::string> cells_of_csv(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
+      cells.back() += line[i++];
+    else if (line[i] == '"')
+      quoted = !quoted;
+    else if (line[i] == ',' && !quoted)
+      cells.emplace_back();
+    else
+      cells.back() += line[i];
+  }
+  return cells;
+}
+
 std::string line_of(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths) {
   std::string line = "|";
   for (std::size_t i = 0; i < cells.size(); ++i) line += fmt::format(" {:>{}} |", cells[i], widths[i]);
@@ -147,11 +198,7 @@ std::string markdown_of(const std::vector<Cells>& rows) {
 }  // namespace
 
 void ExperimentTable::add(const ExperimentRun& run) {
-  Row row;
-  row.run = run.name;
-  for (const auto& [key, value] : run.swept) row.swept.emplace_back(key, job::text_of(value));
-  row.repetition = run.repetition;
-  row.policy = run.request.balance.policy;
+  Row row = row_without_figures(run);
   row.ranks = run.outcome.ranks.size();
   row.subdomains = run.outcome.owners.size();
   row.triangles = run.outcome.triangles();
@@ -177,6 +224,23 @@ void ExperimentTable::add(const ExperimentRun& run) {
   row.messages = run.outcome.messages();
   row.message_bytes = run.outcome.message_bytes();
   rows_.push_back(std::move(row));
+}
+
+void ExperimentTable::add_rows(const std::string& csv, std::span<const ExperimentRun> runs) {
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  const std::vector<std::string> columns = cells_of_csv(line);
+  for (const ExperimentRun& run : runs) {
+    if (!std::getline(lines, line) || lines.eof()) return;
+    Row row = row_without_figures(run);
+    const std::vector<std::string> cells = cells_of_csv(line);
+    if (cells.size() != columns.size()) return;
+    std::map<std::string, std::string> texts;
+    for (std::size_t i = 0; i < cells.size(); ++i) texts[columns[i]] = cells[i];
+    if (texts["run"] != row.run || !take_figures(row, texts)) return;
+    rows_.push_back(std::move(row));
+  }
 }
 
 double regret(const Row& row) {

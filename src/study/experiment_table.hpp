@@ -17,6 +17,9 @@ class ExperimentTable {
 
   /// All figures, comma-separated; the first line names the columns (see docs/experiments.md).
   [[nodiscard]] std::string csv() const;
+  /// Adds the rows that a csv() has of these runs, of which it begins with some in this order, as far as they are
+  /// whole.
+  void add_rows(const std::string& csv, std::span<const ExperimentRun> runs);
   /// The most important figures in Markdown, aligned: a line for each point of the sweep, with the repetition whose
   /// time is the median. Columns that are the same everywhere stand below the table.
   [[nodiscard]] std::string markdown() const;

@@ -948,6 +948,46 @@ class Experiments(RunsOfExperiments):
         self.succeed("run", "first/try/experiment.yaml", "-o", "again", "--quiet")
         self.assertEqual(self.table("first/try"), self.table("again"))
 
+    def sweep(self, folder, *options):
+        return ["run", "sweep.yaml", "-o", folder, *options]
+
+    def figures(self, folder):
+        """All but the time of the processor that cuts the domain."""
+        return [{column: value for column, value in row.items() if "cutting" not in column} for row in self.table(folder)]
+
+    def test_what_was_killed_is_resumed(self):
+        self.write("sweep.yaml", "input: {generate: pipe}\nbounds: {triangles: 2e4}\ncluster: {ranks: 2}\nrepetitions: 3\n"
+                                 "sweep: {run.aggregation: [1, 512], cluster.drag: [[1, 0.5]]}\n")
+        self.succeed(*self.sweep("whole", "--quiet"))
+        with subprocess.Popen([program.PATH, *self.sweep("killed")], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                              env=RANKS_ENVIRONMENT) as run:
+            while run.poll() is None and not ((self.folder / "killed/table.csv").exists() and len(self.table("killed")) >= 2):
+                time.sleep(0.01)
+            run.kill()
+        there = {path: path.stat().st_mtime_ns for path in (self.folder / "killed").glob("run-*.json") if path.stem in
+                 [row["run"] for row in self.table("killed")]}
+        result = self.run_program(*self.sweep("killed", "--resume"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(f"{len(there)} of 6 runs are there", result.stderr)
+        self.assertEqual(self.figures("killed"), self.figures("whole"))
+        self.assertEqual(there, {path: path.stat().st_mtime_ns for path in there})
+
+    def test_however_much_of_a_table_there_is(self):
+        self.write("sweep.yaml", "input: {generate: pipe}\nbounds: {triangles: 5e3}\ncluster: {ranks: 2}\nsweep: {run.aggregation: [1, 8, 512]}\n")
+        self.succeed(*self.sweep("whole", "--quiet"))
+        whole, path = self.figures("whole"), self.folder / "whole" / "table.csv"
+        lines = path.read_text().splitlines(keepends=True)
+        for text in ("", lines[0], *("".join(lines[:k]) for k in (2, 3, 4)), "".join(lines)[:-1], "".join(lines)[:-40], lines[0] + lines[2]):
+            with self.subTest(text=text):
+                path.write_text(text)
+                self.succeed(*self.sweep("whole", "--quiet", "--resume"))
+                self.assertEqual(self.figures("whole"), whole)
+        kept = path.read_text()
+        self.refuse(*self.sweep("whole", "--quiet", "--resume", "--set", "bounds.triangles=6e3"), says=["whole/experiment.yaml", "--resume"])
+        self.assertEqual(path.read_text(), kept)
+        self.succeed(*self.sweep("new", "--quiet", "--resume"))
+        self.assertEqual(self.figures("new"), whole)
+
     def test_a_page_shows_all_runs(self):
         said = self.run_config("scaled-speedup", *self.SHRUNK["scaled-speedup"], "cluster.ranks=[1, 2]", report=True)
         page = self.folder / "results" / "report.html"

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,32 @@ TEST_CASE("what noise explains is not called recovered") {
     if (r.policy == "greedy") r.seconds -= 4;
   const std::vector<Row> clear = medians_of(rows);
   CHECK(recovered(clear[1], clear) == 0.75);
+}
+
+TEST_CASE("a table is read again as far as it is whole") {
+  std::vector<ExperimentRun> runs{run("none", 12, 0), run("greedy", 1.0 / 3, 7), run("a \"b\", c", 1e-300, 2)};
+  runs[1].repetition = 5;
+  runs[2].outcome.cutting = 0.1 + 0.2;
+  ExperimentTable table;
+  for (const ExperimentRun& each : runs) table.add(each);
+  const std::string csv = table.csv();
+  std::size_t whole = 0;
+  for (std::size_t end = 0; end <= csv.size(); ++end) {
+    ExperimentTable again;
+    again.add_rows(csv.substr(0, end), runs);
+    const std::string read = again.csv();
+    const auto lines = std::count(csv.begin(), csv.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+    REQUIRE(again.rows().size() == static_cast<std::size_t>(std::max<std::ptrdiff_t>(lines, 1) - 1));
+    if (!again.rows().empty()) CHECK(csv.starts_with(read.substr(0, read.find("recovered"))));
+    whole = std::max(whole, again.rows().size());
+    if (whole == 3) CHECK(again.csv() == csv);
+    if (whole == 3) CHECK(again.markdown() == table.markdown());
+  }
+  CHECK(whole == 3);
+  ExperimentTable others;
+  std::swap(runs[1], runs[2]);
+  others.add_rows(csv, runs);
+  CHECK(others.rows().size() == 1);
 }
 
 TEST_CASE("columns that are the same in all runs stand below the table") {
