@@ -41,7 +41,7 @@ void visit_components(const std::string& name, const adapt::Field& field, const 
   for (std::size_t k = 0; k < field.components; ++k) {
     std::vector<double> values;
     for (std::size_t i = k; i < field.values.size(); i += field.components) values.push_back(field.values[i]);
-    visit(field.components == 1 ? name : name + "_" + std::to_string(k), std::move(values));
+    visit(name_of_component(name, field.components, k), std::move(values));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "driftmesh/mesh.hpp"
+#include "io/triangle_data.hpp"
 #include "io/vtu_format.hpp"
 
 namespace driftmesh {
@@ -24,7 +25,8 @@ struct Hdf5Shape {
   std::uint64_t lines = 0;
   VtuArrays arrays;
   Names names{};
-  std::string coordinates{};  ///< see Mesh
+  std::string coordinates{};              ///< see Mesh
+  std::vector<std::string> data_names{};  ///< of data at triangles
 };
 /// Where arrays begin, by their names: byte offsets into the file. An array without elements has no place.
 using Hdf5Places = std::map<std::string, std::uint64_t>;
@@ -42,6 +44,7 @@ struct Hdf5Part {
   std::uint64_t first_triangle = 0;  ///< number among all triangles of the mesh
   std::uint64_t first_line = 0;
   std::map<double, std::int32_t> tags{};  ///< tags for the regions of the whole mesh
+  const TriangleData* data = nullptr;     ///< at its triangles; null: none
 };
 
 /// Throws FileError.
@@ -53,10 +56,13 @@ void write_xdmf(const std::string& path, const Hdf5Shape& shape);
 
 /// All of it for a whole mesh. Both files appear when complete. Throws FileError, and InputError if `path` cannot hold
 /// a regular file.
-void write_hdf5(const Mesh& mesh, const std::string& path);
+void write_hdf5(const Mesh& mesh, const TriangleData& data, const std::string& path);
 
 /// Reads what these functions write. A file that ranks wrote gives the same mesh whichever rank held what (see
 /// merge_pieces), and nothing from other files (see require_own_content). Errors: InputError, FileError.
 [[nodiscard]] Mesh read_hdf5(const std::string& path);
+/// The numbers that such a file has at cells besides; none of a file that ranks wrote, whose triangles change places.
+/// Errors as read_hdf5.
+[[nodiscard]] TriangleData read_hdf5_triangle_data(const std::string& path);
 
 }  // namespace driftmesh

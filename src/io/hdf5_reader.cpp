@@ -40,6 +40,24 @@ class Hdf5Reader {
     return std::move(mesh_);
   }
 
+  TriangleData read_triangle_data() const {
+    const std::string on_cells = "/VTKHDF/CellData/";
+    const std::uint64_t triangles = rows_of("/viz/topology/cells");
+    const std::uint64_t cells = triangles + rows_of("/viz/topology/facets");
+    TriangleData data;
+    if (!has("/VTKHDF/CellData") || has("/VTKHDF/PointData/global_number")) return data;
+    for (const std::string& name : names_in("/VTKHDF/CellData")) {
+      if (is_array_on_cells(name) || !fault_of_name(name).empty()) continue;
+      const Array<double> table = array<double>(on_cells + name, cells, 0);
+      for (std::size_t k = 0; k < table.columns; ++k) {
+        std::vector<double> values;
+        for (std::size_t t = 0; t < triangles; ++t) values.push_back(table.values[t * table.columns + k]);
+        data.try_emplace(name_of_component(name, table.columns, k), std::move(values));
+      }
+    }
+    return data;
+  }
+
  private:
   template <class T>
   struct Array {
@@ -183,6 +201,23 @@ class Hdf5Reader {
     values.resize(mesh_.triangles.size());
   }
 
+  /// The names of what is in a group, sorted.
+  [[nodiscard]] std::vector<std::string> names_in(const std::string& group) const {
+    const Hdf5Handle opened(H5Gopen(file_.id(), group.c_str(), H5P_DEFAULT), H5Gclose);
+    H5G_info_t info{};
+    if (!opened.is_open() || H5Gget_info(opened.id(), &info) < 0) fail("has no group " + group);
+    std::vector<std::string> names;
+    for (hsize_t k = 0; k < info.nlinks; ++k) {
+      const auto name_at = [&](char* text, std::size_t size) {
+        return H5Lget_name_by_idx(opened.id(), ".", H5_INDEX_NAME, H5_ITER_INC, k, text, size, H5P_DEFAULT);
+      };
+      std::string name(static_cast<std::size_t>(std::max<ssize_t>(0, name_at(nullptr, 0))), '\0');
+      name_at(name.data(), name.size() + 1);
+      names.push_back(std::move(name));
+    }
+    return names;
+  }
+
   static std::string name_of(const Hdf5Handle& attribute) {
     std::string name(static_cast<std::size_t>(std::max<ssize_t>(0, H5Aget_name(attribute.id(), 0, nullptr))), '\0');
     H5Aget_name(attribute.id(), name.size() + 1, name.data());
@@ -230,6 +265,12 @@ Mesh in_order(Mesh mesh, const std::string& path) {
 }
 
 }  // namespace
+
+TriangleData read_hdf5_triangle_data(const std::string& path) {
+  const QuietHdf5 quiet;
+  require_own_content(path);
+  return Hdf5Reader(path).read_triangle_data();
+}
 
 Mesh read_hdf5(const std::string& path) {
   const QuietHdf5 quiet;

@@ -20,7 +20,11 @@ void write_hdf5_part(const std::string& /*file*/, const std::string& path, const
   refuse_hdf5(path);
 }
 
-void write_hdf5(const Mesh& /*mesh*/, const std::string& path) {
+void write_hdf5(const Mesh& /*mesh*/, const TriangleData& /*data*/, const std::string& path) {
+  refuse_hdf5(path);
+}
+
+TriangleData read_hdf5_triangle_data(const std::string& path) {
   refuse_hdf5(path);
 }
 

@@ -93,6 +93,7 @@ class Hdf5Maker {
     for_each_cell_array(shape_.arrays, [&]<class T>(const T*, const char* called) {
       array<T>(std::string("/VTKHDF/CellData/") + called, {cells()});
     });
+    for (const std::string& called : shape_.data_names) array<double>("/VTKHDF/CellData/" + called, {cells()});
   }
 
   void make_topology() {
@@ -325,9 +326,9 @@ class Hdf5PartWriter {
       lines<std::int32_t>(data + "marker", 1, shape_.triangles,
                           [&](auto e, auto* row) { *row = mesh_.edges[e].marker; });
     }
-    if (!arrays.regions && !arrays.subdomains && !arrays.ranks) return;
+    if (!arrays.regions && !arrays.subdomains && !arrays.ranks && part_.data == nullptr) return;
     const auto at_edges = triangles_at_edges(mesh_, ConstrainedEdgeIndex(mesh_));
-    const auto write = [&]<class T>(const char* name, const std::vector<T>& of_triangles) {
+    const auto write = [&]<class T>(const std::string& name, const std::vector<T>& of_triangles) {
       triangles<T>(data + name, 1, [&](auto t, auto* row) { *row = of_triangles[t]; });
       lines<T>(data + name, 1, shape_.triangles, [&](auto e, auto* row) {
         const std::int32_t triangle = at_edges[e][0] >= 0 ? at_edges[e][0] : at_edges[e][1];
@@ -337,6 +338,8 @@ class Hdf5PartWriter {
     if (arrays.regions) write("region", mesh_.regions);
     if (arrays.subdomains) write("subdomain", mesh_.subdomains);
     if (arrays.ranks) write("rank", mesh_.ranks);
+    if (part_.data != nullptr)
+      for (const auto& [name, values] : *part_.data) write(name, values);
   }
 
   void write_tags() {
@@ -373,16 +376,18 @@ void write_hdf5_part(const std::string& file, const std::string& path, const Hdf
   out.close();
 }
 
-void write_hdf5(const Mesh& mesh, const std::string& path) {
+void write_hdf5(const Mesh& mesh, const TriangleData& data, const std::string& path) {
   AtomicFile file(path);
   const std::string& name = file.name_meanwhile();
-  const Hdf5Shape shape{mesh.points.size(), mesh.triangles.size(), mesh.edges.size(), arrays_of(mesh),
-                        mesh.names,         mesh.coordinates};
+  Hdf5Shape shape{mesh.points.size(), mesh.triangles.size(), mesh.edges.size(), arrays_of(mesh),
+                  mesh.names,         mesh.coordinates};
+  for (const auto& named : data) shape.data_names.push_back(named.first);
   const Hdf5Part part{.mesh = mesh,
                       .points = numbered<std::int32_t>(mesh.points.size()),
                       .lines = numbered<std::int32_t>(mesh.edges.size()),
                       .row = numbered<std::int64_t>(mesh.points.size()),
-                      .tags = tags_of_values({mesh.regions.begin(), mesh.regions.end()})};
+                      .tags = tags_of_values({mesh.regions.begin(), mesh.regions.end()}),
+                      .data = data.empty() ? nullptr : &data};
   const Hdf5Places places = create_hdf5(name, path, shape);
   write_hdf5_part(name, path, shape, places, part);
   file.commit();

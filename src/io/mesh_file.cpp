@@ -114,7 +114,7 @@ void check_triangle_names(const TriangleData& data, const std::string& path) {
 void write_as_is(const Mesh& mesh, const TriangleData& data, const std::string& path, const WriteOptions& options) {
   const MeshFormat& format = format_of(path);
   if (format.write_with_data != nullptr && !data.empty())
-    format.write_with_data(mesh, data, path);
+    format.write_with_data(mesh, data, path, options);
   else
     format.write(mesh, path, options);
 }
@@ -169,6 +169,7 @@ Mesh read(const std::string& path, const ReadOptions& options, TriangleData* dat
   Mesh mesh;
   if (format.read != nullptr) {
     mesh = format.read(path, options);
+    if (data != nullptr && format.read_data != nullptr) *data = format.read_data(path);
   } else if (format.parse != nullptr) {
     const FileBytes bytes(path, format.begins);
     mesh = format.parse(path, bytes.view());

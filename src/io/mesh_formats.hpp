@@ -31,10 +31,12 @@ struct MeshFormat {
   /// Takes the place of `parse` for what is no sequence of bytes. Throws InputError, FileError.
   Mesh (*read)(const std::string& path, const ReadOptions& options) = nullptr;
 
-  /// What the bytes have at triangles besides, and a mesh written with such data. Null: the format has no place for
-  /// them.
+  /// What the bytes, or the file, have at triangles besides, and a mesh written with such data. Null: the format has no
+  /// place for them.
   TriangleData (*parse_data)(const std::string& file, std::string_view bytes) = nullptr;
-  void (*write_with_data)(const Mesh& mesh, const TriangleData& data, const std::string& path) = nullptr;
+  TriangleData (*read_data)(const std::string& path) = nullptr;
+  void (*write_with_data)(const Mesh& mesh, const TriangleData& data, const std::string& path,
+                          const WriteOptions& options) = nullptr;
 
   /// The files of a mesh in so many pieces. Null: one file, which may be a standard stream.
   std::vector<std::string> (*files)(const std::string& path, std::int32_t pieces) = nullptr;

@@ -10,6 +10,7 @@
 #include "io/msh_groups.hpp"
 #include "io/msh_input.hpp"
 #include "io/read_checks.hpp"
+#include "io/triangle_data.hpp"
 #include "pslg/names.hpp"
 
 namespace driftmesh {
@@ -19,7 +20,7 @@ constexpr std::size_t kMaxAttributes = 1000;
 
 class MshParser {
  public:
-  MshParser(const std::string& path, std::string_view bytes) : cursor_(path, bytes) {}
+  MshParser(const std::string& path, std::string_view bytes, bool views) : cursor_(path, bytes), views_(views) {}
 
   RawMsh parse() {
     while (cursor_.remaining() > 0) {
@@ -285,7 +286,7 @@ class MshParser {
   // A view of another program, if it has one value each.
   template <class Input>
   bool parse_other_node_data(const View& view, Input& input) {
-    const std::string name(view.name.size() < 2 ? view.name : view.name.substr(1, view.name.size() - 2));
+    const std::string name = name_of(view);
     const bool is_known = std::ranges::any_of(raw_.attributes, [&](const auto& known) { return known.name == name; });
     if (is_known || view.integers.size() < 3 || view.integers[1] != 1 || view.integers[2] < 0) return false;
     if (!fault_of_name(name).empty() || raw_.attributes.size() == kMaxAttributes) return false;
@@ -319,14 +320,35 @@ class MshParser {
     return true;
   }
 
+  // The name of a view that others can have, which is in quotes.
+  static std::string name_of(const View& view) {
+    return std::string(view.name.size() < 2 ? view.name : view.name.substr(1, view.name.size() - 2));
+  }
+
+  // A view on elements, if it has one value each, and these are wanted.
+  template <class Input>
+  bool parse_element_view(const View& view, Input& input) {
+    const std::string name = name_of(view);
+    const bool is_known = std::ranges::any_of(raw_.views, [&](const auto& known) { return known.name == name; });
+    if (!views_ || is_known || view.integers.size() < 3 || view.integers[1] != 1 || view.integers[2] < 0) return false;
+    if (!fault_of_name(name).empty() || is_array_on_cells(name) || raw_.views.size() == kMaxAttributes) return false;
+    RawMsh::ElementView& read = raw_.views.emplace_back();
+    read.name = name;
+    for (std::int32_t left = view.integers[2]; left > 0; --left) {
+      const std::int32_t element = input.integer();
+      read.values.push_back({element, input.real()});
+    }
+    return true;
+  }
+
   // The same for subdomains and ranks.
   template <class Input>
   bool parse_element_data(Input& input) {
     const View view = parse_view_header("$ElementData");
-    std::vector<RawMsh::ElementValue>* const values = view.name == quoted(kSubdomainView) ? &raw_.subdomains
-                                                      : view.name == quoted(kRankView)    ? &raw_.ranks
-                                                                                          : nullptr;
-    if (values == nullptr) return false;
+    auto* const values = view.name == quoted(kSubdomainView) ? &raw_.subdomains
+                         : view.name == quoted(kRankView)    ? &raw_.ranks
+                                                             : nullptr;
+    if (values == nullptr) return parse_element_view(view, input);
     for (std::int32_t left = count_of_values(view); left > 0; --left) {
       const std::int32_t element = input.integer();
       const double value = input.real();
@@ -373,6 +395,7 @@ class MshParser {
   }
 
   ByteCursor cursor_;
+  bool views_;
   bool is_binary_ = false;
   double z_ = 0;
   std::set<std::string> seen_;
@@ -382,8 +405,8 @@ class MshParser {
 
 }  // namespace
 
-RawMsh parse_msh_sections(const std::string& path, std::string_view bytes) {
-  return MshParser(path, bytes).parse();
+RawMsh parse_msh_sections(const std::string& path, std::string_view bytes, bool views) {
+  return MshParser(path, bytes, views).parse();
 }
 
 }  // namespace driftmesh

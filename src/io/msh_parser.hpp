@@ -28,9 +28,14 @@ struct RawMsh {
     std::vector<double> values;
     bool is_other = false;  ///< not by write_msh
   };
-  struct ElementValue {
+  template <class Value>
+  struct AtElement {
     std::int32_t element = 0;
-    std::int32_t value = 0;
+    Value value{};
+  };
+  struct ElementView {  ///< not by write_msh, or of data that it was given
+    std::string name;
+    std::vector<AtElement<double>> values;
   };
   struct Marker {
     std::uint64_t node = 0;
@@ -45,14 +50,16 @@ struct RawMsh {
   Elements<3> triangles;
   std::vector<std::uint64_t> point_elements;  ///< only their tags
   std::vector<Attribute> attributes;
-  std::vector<ElementValue> subdomains;
-  std::vector<ElementValue> ranks;
+  std::vector<AtElement<std::int32_t>> subdomains;
+  std::vector<AtElement<std::int32_t>> ranks;
+  std::vector<ElementView> views;  ///< if they are wanted
   std::optional<std::vector<Marker>> point_markers;
   std::string coordinates;                   ///< see Mesh
   std::map<EntityKey, double> group_values;  ///< markers and regions that neither name nor tag of the group says
 };
 
-/// Reads the sections of a file of format 4.1, ASCII or binary. Tags are not checked for existence. Errors: InputError.
-[[nodiscard]] RawMsh parse_msh_sections(const std::string& path, std::string_view bytes);
+/// Reads the sections of a file of format 4.1, ASCII or binary. Tags are not checked for existence. `views`: whether
+/// those on elements are wanted. Errors: InputError.
+[[nodiscard]] RawMsh parse_msh_sections(const std::string& path, std::string_view bytes, bool views = false);
 
 }  // namespace driftmesh

@@ -41,6 +41,28 @@ class MshAssembler {
     return std::move(mesh_);
   }
 
+  /// Views of which some triangle has no value, or two, are left out.
+  [[nodiscard]] TriangleData triangle_data() const {
+    const TagIndex triangles = index_of_triangles();
+    TriangleData data;
+    for (const RawMsh::ElementView& view : raw_.views) {
+      std::vector<double> values(triangle_order_.size());
+      std::vector<bool> has_value(values.size(), false);
+      std::size_t count = 0;
+      bool twice = false;
+      for (const RawMsh::AtElement<double>& v : view.values) {
+        const std::int32_t t = triangles.find(static_cast<std::uint64_t>(v.element));
+        if (t < 0) continue;
+        twice = twice || has_value[t];
+        has_value[t] = true;
+        values[t] = v.value;
+        ++count;
+      }
+      if (!twice && count == values.size()) data.emplace(view.name, std::move(values));
+    }
+    return data;
+  }
+
  private:
   std::vector<std::uint64_t> ascending_node_tags() const {
     (void)narrow<std::int32_t>(raw_.node_tags.size(), "nodes");
@@ -101,18 +123,22 @@ class MshAssembler {
     }
   }
 
-  /// Each triangle must have one; those of other elements are skipped.
-  [[nodiscard]] std::vector<std::int32_t> values_of_triangles(const std::vector<RawMsh::ElementValue>& values,
-                                                              std::string_view name) const {
-    if (values.empty()) return {};
-    const std::string view = "its view '" + std::string(name) + "'";
+  [[nodiscard]] TagIndex index_of_triangles() const {
     std::vector<std::uint64_t> tags;
     tags.reserve(triangle_order_.size());
     for (const std::size_t i : triangle_order_) tags.push_back(raw_.triangles.tags[i]);
-    const TagIndex triangles(std::move(tags));
+    return TagIndex(std::move(tags));
+  }
+
+  /// Each triangle must have one; those of other elements are skipped.
+  [[nodiscard]] std::vector<std::int32_t> values_of_triangles(
+      const std::vector<RawMsh::AtElement<std::int32_t>>& values, std::string_view name) const {
+    if (values.empty()) return {};
+    const std::string view = "its view '" + std::string(name) + "'";
+    const TagIndex triangles = index_of_triangles();
     std::set<std::uint64_t> others;
     std::vector<std::int32_t> result(triangle_order_.size(), -1);
-    for (const RawMsh::ElementValue& v : values) {
+    for (const RawMsh::AtElement<std::int32_t>& v : values) {
       const auto tag = static_cast<std::uint64_t>(v.element);
       const std::int32_t found = triangles.find(tag);
       const bool is_new = found < 0 ? others.insert(tag).second : std::exchange(result[found], v.value) < 0;
@@ -228,6 +254,10 @@ Mesh parse_msh(const std::string& file, std::string_view bytes) {
   Mesh mesh = MshAssembler(file, parse_msh_sections(file, bytes)).assemble();
   check_read_mesh(mesh, file);
   return mesh;
+}
+
+TriangleData parse_msh_triangle_data(const std::string& file, std::string_view bytes) {
+  return MshAssembler(file, parse_msh_sections(file, bytes, true)).triangle_data();
 }
 
 }  // namespace driftmesh

@@ -212,24 +212,26 @@ void write_attribute(MshOutput& out, const Mesh& mesh, std::size_t k) {
   out.end("NodeData");
 }
 
-/// Where the triangles were made, as a view: physical groups would change what solvers load. Lines have the values of
-/// an adjacent triangle, since there are readers that want one for every element.
-void write_element_data(MshOutput& out, std::string_view name, const std::vector<std::int32_t>& of_triangles,
+/// Values at triangles as a view; also where they were made: physical groups would change what solvers load. Lines have
+/// the values of an adjacent triangle, since there are readers that want one for every element.
+template <class Value>
+void write_element_data(MshOutput& out, std::string_view name, const std::vector<Value>& of_triangles,
                         const std::vector<std::array<std::int32_t, 2>>& at_edges) {
   begin_view(out, "ElementData", name, of_triangles.size() + at_edges.size());
   std::size_t tag = 0;
-  for (const std::int32_t value : of_triangles) write_value(out, ++tag, value);
+  for (const Value value : of_triangles) write_value(out, ++tag, value);
   for (const auto& [left, right] : at_edges) {
     const std::int32_t triangle = left >= 0 ? left : right;
-    write_value(out, ++tag, triangle >= 0 ? of_triangles[triangle] : 0);
+    write_value(out, ++tag, triangle >= 0 ? of_triangles[triangle] : Value{});
   }
   out.end("ElementData");
 }
 
-void write_views(MshOutput& out, const Mesh& mesh, const MshClassification& classes) {
+void write_views(MshOutput& out, const Mesh& mesh, const TriangleData& data, const MshClassification& classes) {
   for (std::int32_t k = 0; k < mesh.attributes_per_point; ++k) write_attribute(out, mesh, k);
   if (!mesh.subdomains.empty()) write_element_data(out, kSubdomainView, mesh.subdomains, classes.at_edges);
   if (!mesh.ranks.empty()) write_element_data(out, kRankView, mesh.ranks, classes.at_edges);
+  for (const auto& [name, values] : data) write_element_data(out, name, values, classes.at_edges);
 }
 
 // As text even in a binary file: readers that do not know the section look for its end line by line.
@@ -264,7 +266,7 @@ void write_values(FileSink& sink, const MshClassification& classes) {
 
 }  // namespace
 
-void write_msh(const Mesh& mesh, const std::string& path, bool ascii) {
+void write_msh(const Mesh& mesh, const TriangleData& data, const std::string& path, bool ascii) {
   (void)narrow<std::int32_t>(mesh.edges.size() + mesh.triangles.size(), "elements of a .msh file");
   MshOutput out(path, ascii);
   const MshClassification classes(mesh);
@@ -273,7 +275,7 @@ void write_msh(const Mesh& mesh, const std::string& path, bool ascii) {
   write_entities(out, classes);
   write_nodes(out, mesh, classes);
   write_elements(out, mesh, classes);
-  write_views(out, mesh, classes);
+  write_views(out, mesh, data, classes);
   write_values(out.text(), classes);
   write_coordinates(out.text(), mesh.coordinates);
   if (!mesh.point_markers.empty()) write_point_markers(out.text(), mesh.point_markers);

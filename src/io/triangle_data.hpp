@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <string_view>
@@ -14,6 +15,11 @@ using TriangleData = std::map<std::string, std::vector<double>>;
 /// Whether files have something of this name among the values of cells, so that no data can have it.
 [[nodiscard]] inline bool is_array_on_cells(std::string_view name) {
   return name == "marker" || name == "region" || name == "subdomain" || name == "rank" || name == "vtkGhostType";
+}
+
+/// What data are called of which this is component k of so many.
+[[nodiscard]] inline std::string name_of_component(const std::string& name, std::size_t components, std::size_t k) {
+  return components == 1 ? name : name + "_" + std::to_string(k);
 }
 
 }  // namespace driftmesh

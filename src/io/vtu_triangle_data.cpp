@@ -40,7 +40,7 @@ TriangleData parse_vtu_triangle_data(const std::string& file, std::string_view b
       std::vector<double> column;
       for (std::size_t cell = 0; cell < counts.size(); ++cell)
         if (counts[cell]) column.push_back(values[cell * array.components + k]);
-      data.try_emplace(array.components == 1 ? name : name + "_" + std::to_string(k), std::move(column));
+      data.try_emplace(name_of_component(name, array.components, k), std::move(column));
     }
   }
   return data;

@@ -336,9 +336,24 @@ class AtTriangles(Adapt):
 
     def test_formats_without_a_place_for_them(self):
         self.old()
-        result = self.run_program("adapt", "old.vtu", "--lengths", "h", "-o", "new.msh")
+        result = self.run_program("adapt", "old.vtu", "--lengths", "h", "-o", "new.su2")
         self.assertEqual(result.returncode, 0)
-        self.assertIn("new.msh: has no place for data at triangles", result.stderr)
+        self.assertIn("new.su2: has no place for data at triangles", result.stderr)
+
+    def test_they_pass_through_formats(self):
+        points, triangles, values = self.old()
+        names = ["old.vtu", "a.msh", "b.h5", "c.vtu"]
+        for old, new in zip(names, names[1:]):  # nothing has to change
+            self.succeed("adapt", old, "--max-length", 9, "--threshold", 100, "-q", 0, "-o", new)
+        self.assertEqual(len(self.read("c.vtu")[1]), len(triangles))
+        self.assertEqual(list(self.values("c.vtu", "q"))[:len(triangles)], values)
+        self.succeed("adapt", "a.msh", "--lengths", "h", "--transfer", "q=conserve", "-o", "new.h5")
+        self.succeed("adapt", "new.h5", "--max-length", 9, "--threshold", 100, "-q", 0, "-o", "new.vtu")
+        new_points, new_triangles, _ = self.read("new.vtu")
+        whole = math.fsum(area(points, t) * v for t, v in zip(triangles, values))
+        self.assertGreater(len(new_triangles), len(triangles))
+        self.assertAlmostEqual(math.fsum(area(new_points, t) * v for t, v in zip(new_triangles, self.values("new.vtu", "q"))), whole,
+                               delta=1e-12 * whole)
 
     def test_names_that_the_file_has_not(self):
         self.old()

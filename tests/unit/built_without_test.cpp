@@ -40,7 +40,7 @@ void check_refused(const std::string& library, const std::string& part, const Ca
 
 TEST_CASE("files that take a library are refused by its name without it") {
   const std::string file = "some.file";
-  check_refused("HDF5", "HDF5", [&] { write_hdf5({}, file); });
+  check_refused("HDF5", "HDF5", [&] { write_hdf5({}, {}, file); });
   check_refused("HDF5", "HDF5", [&] { static_cast<void>(read_hdf5(file)); });
   check_refused("HDF5", "HDF5", [&] { static_cast<void>(create_hdf5("some.part", file, {})); });
   check_refused("zlib", "ZLIB", [&] { Unpacker{file}; });

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <map>
+#include <random>
 #include <set>
 #include <sstream>
 #include <string>
@@ -191,6 +193,39 @@ TEST_CASE("a format keeps of a mesh what its row says, not more and not less, an
     }
     if (format.is_read()) CHECK(kept == format.keeps);
   });
+}
+
+TEST_CASE(
+    "data at triangles come back bit by bit where a format has a place for them, and others say that they are lost") {
+  std::size_t with_place = 0;
+  for_each_written([&](const MeshFormat& format, const std::string& path) {
+    for (std::uint32_t seed = 1; seed <= 8; ++seed) {
+      const Mesh mesh = full_mesh(seed);
+      std::mt19937_64 random(seed);
+      TriangleData data{{"q", {}}, {"dry & wet 50%", {}}, {"attribute 1", {}}};
+      for (auto& named : data)
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+          named.second.push_back(
+              std::ldexp(std::uniform_real_distribution<double>(-1, 1)(random), random() % 400 - 200.0));
+      data["q"].front() = -0.0;
+      data["q"].back() = 5e-324;
+      std::string said;
+      for (const bool ascii : {false, true}) {
+        write_mesh(mesh, data, path, {.ascii = ascii, .warn = [&](const std::string& text) { said += text; }});
+        CHECK((said.find("data at triangles") == std::string::npos) == (format.write_with_data != nullptr));
+        if (!format.is_read()) continue;
+        TriangleData read;
+        const Mesh with_data = read_mesh(path, {}, read);
+        CHECK(read == (format.write_with_data != nullptr ? data : TriangleData{}));
+        write_mesh(mesh, path, {.ascii = ascii});
+        check_same_mesh(with_data, read_mesh(path));
+        with_place += read.empty() ? 0 : 1;
+        static_cast<void>(read_mesh(path, {}, read));
+        CHECK(read.empty());
+      }
+    }
+  });
+  CHECK(with_place == 3 * 8 * 2);
 }
 
 TEST_CASE("what keeps everything of a domain reads back bit by bit") {

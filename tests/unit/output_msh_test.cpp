@@ -121,6 +121,26 @@ TEST_CASE(
   check_same_mesh(read_mesh(path), mesh);
 }
 
+TEST_CASE("views on elements are data at triangles if each triangle has one value") {
+  const auto view = [](const std::string& name, const std::string& values, int components = 1) {
+    return "$ElementData\n1\n\"" + name + "\"\n1\n0\n3\n0\n" + std::to_string(components) + "\n" +
+           std::to_string(std::ranges::count(values, '\n')) + "\n" + values + "$EndElementData\n";
+  };
+  const std::string text = kGmshText + view("h", "20 2.5\n19 -1\n") + view("lines too", "4 9\n5 9\n19 1\n20 2\n") +
+                           view("lines alone", "4 9\n5 9\n") + view("one is missing", "19 1\n3 1\n") +
+                           view("twice", "19 1\n19 2\n20 3\n") + view("vectors", "19 1 2 3\n20 4 5 6\n", 3) +
+                           view("h", "19 7\n20 7\n") + view("region", "19 7\n20 7\n");
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "views.msh";
+  replace_file(path, text);
+  TriangleData data;
+  check_same_mesh(read_mesh(path, {}, data), mesh_of_gmsh_text());
+  CHECK(data == TriangleData{{"h", {-1, 2.5}}, {"lines too", {1, 2}}});
+  replace_file(path,
+               std::string(kGmshText) + "$ElementData\n1\n\"h\"\n1\n0\n3\n0\n1\n2\n19 x\n20 1\n$EndElementData\n");
+  CHECK(mentions(error_text<InputError>([&] { (void)read_mesh(path, {}, data); }), {"'x'", "number is expected"}));
+}
+
 TEST_CASE("regions that are not positive integers keep their exact value in .msh") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "mesh.msh";
