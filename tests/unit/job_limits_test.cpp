@@ -1,6 +1,9 @@
 #include <doctest/doctest.h>
 
+#include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "driftmesh/error.hpp"
 #include "job/limits.hpp"
@@ -78,6 +81,50 @@ TEST_CASE("Arrays that are written with a mesh take memory too") {
   const Processes many{100, 2};
   CHECK(fit({}, {.in_subdomains = true, .writes = true}, many) > 99 * in_subdomains);
   CHECK(fit({}, {.in_subdomains = true, .writes = true, .gathers = true}, many) < 2 * in_subdomains);
+}
+
+TEST_CASE("What a triangle takes, once refined and until it is finished") {
+  const auto bytes = [](const Use& use, const Pslg& pslg = {}) {
+    const Limits limits = find_limits(with_memory(UINT64_C(1) << 40), pslg, use);
+    return std::pair(limits.bytes_refined, limits.bytes_finishing);
+  };
+  using Bytes = std::pair<std::uint64_t, std::uint64_t>;
+  CHECK(bytes({}) == Bytes{44, 0});
+  CHECK(bytes({.sleeps = true}) == Bytes{12, 0});
+  CHECK(bytes({.sleeps = true, .stores = true}) == Bytes{1, 0});
+  CHECK(bytes({.writes = true}) == Bytes{44, 26});
+  CHECK(bytes({.writes = true, .at_once = 0.25}) == Bytes{44, 7});
+  CHECK(bytes({.in_subdomains = true, .writes = true}) == Bytes{44, 42});
+  Pslg pslg;
+  pslg.attributes_per_point = 3;
+  CHECK(bytes({.writes = true}, pslg) == Bytes{44, 26 + 3 * 4});
+  pslg.regions.resize(1);
+  CHECK(bytes({.writes = true}, pslg) == Bytes{44, 26 + 3 * 4 + 8});
+  // Its part three times, but no longer refined.
+  CHECK(bytes({.in_subdomains = true, .writes = true, .gathers = true}) == Bytes{44, 3 * 42 - 44});
+  CHECK(bytes({.in_subdomains = true, .sleeps = true, .writes = true, .gathers = true}) == Bytes{12, 3 * 42 - 12});
+}
+
+TEST_CASE("Free memory is shared by the processes of a machine, and what a process has is taken") {
+  const auto free = [](int on_machine) {
+    return static_cast<double>(find_limits({}, Pslg{}, {}, {on_machine, on_machine}).memory - present_memory());
+  };
+  CHECK(free(4) == doctest::Approx(free(1) / 4).epsilon(0.2));
+  const std::vector<char> present(100'000'000, 'x');
+  const Limits limits = find_limits(with_memory(present_memory() + 50'000'000), Pslg{}, {});
+  CHECK(static_cast<double>(limits.in_memory) == doctest::Approx(50e6 / 44).epsilon(0.2));
+  CHECK(present.back() == 'x');
+  const Limits to_finish = find_limits(with_memory(present_memory() + 500'000'000), Pslg{}, {.writes = true});
+  CHECK(room_for(to_finish, 0) - room_for(to_finish, 1'000'000) == doctest::Approx(1e6 * 26 / 70).epsilon(0.2));
+}
+
+TEST_CASE("A limit is met by the first triangle above it") {
+  Limits limits;
+  limits.triangles = 1000;
+  CHECK_NOTHROW(check_limits(limits, 1000));
+  CHECK_THROWS_AS(check_limits(limits, 1001), LimitError);
+  CHECK_NOTHROW(check_number(limits, 1000));
+  CHECK_THROWS_AS(check_number(limits, 1001), LimitError);
 }
 
 TEST_CASE("No memory means no triangles, not a wrapped number") {

@@ -230,13 +230,63 @@ TEST_CASE("integers of a .vtu that do not fit are refused, not wrapped, and so a
     CHECK(message_of(path).find("out of range") != std::string::npos);
   }
   written("0 1 18446744073709551615", "1 1 1", flat, "UInt64");
-  CHECK(message_of(path) != "");
+  CHECK(message_of(path) != "no error");
   for (const char* const points : {"0 0 5 1 0 5 0 1 4", "0 0 0 1 0 0 0 1 1e-9", "0 0 1 1 0 0 0 1 0"}) {
     written("0 1 2", "1 1 1", points);
     CHECK(message_of(path).find("not planar") != std::string::npos);
   }
   for (const char* const corners : {"0 1", "0 1 2 2", "0 1 2x"}) {
     written(corners, "1 1 1", flat);
-    CHECK(message_of(path) != "");
+    CHECK(message_of(path) != "no error");
   }
+  written("0 1 2", "1 1 1 1", flat);
+  CHECK(mentions(message_of(path), {"4", "3"}));
+  written("0 1 2", "1 1 1x", flat);
+  CHECK(mentions(message_of(path), {"text that is not Int64"}));
+}
+
+TEST_CASE("appended arrays of a .vtu lie side by side, and nothing else behind them") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.vtu";
+  Mesh mesh = RandomMesh(5, 2, 2).mesh();
+  write_mesh(mesh, path);
+  const std::string whole = file_bytes(path);
+  const auto message = [&](std::string bytes) {
+    replace_file(path, bytes);
+    return message_of(path);
+  };
+  CHECK(message(whole) == "no error");
+  CHECK(mentions(message(whole + "more"), {"more behind </VTKFile>"}));
+  CHECK(message(whole + " \n") == "no error");
+  // The second array at the place of the first.
+  const std::size_t second = whole.find("offset=\"", whole.find("offset=\"0\"") + 1);
+  REQUIRE(second != std::string::npos);
+  std::string same = whole;
+  const std::size_t digits = whole.find('"', second + 8) - second - 8;
+  same.replace(second + 8, digits, "0" + std::string(digits - 1, ' '));
+  CHECK(message(same) != "no error");
+  same.replace(second + 8, digits, std::string(digits - 1, '0') + "4");  // within the first
+  CHECK(mentions(message(same), {"overlaps another one"}));
+  std::string flat = whole;
+  const std::size_t components = flat.find("NumberOfComponents=\"3\"", flat.find("<Points>"));
+  REQUIRE(components != std::string::npos);
+  CHECK(mentions(message(flat.replace(components, 22, "NumberOfComponents=\"2\"")), {"NumberOfComponents=\"3\""}));
+}
+
+TEST_CASE("data at the triangles of a .vtu: one for each component, lines apart") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.vtu";
+  replace_file(path,
+               "<VTKFile type='UnstructuredGrid' version='1.0' byte_order='LittleEndian'><UnstructuredGrid>"
+               "<Piece NumberOfPoints='4' NumberOfCells='3'><CellData><DataArray type='Float64' Name='u' "
+               "NumberOfComponents='2' format='ascii'>1 2 3 4 5 6</DataArray><DataArray type='Int8' Name='q' "
+               "format='ascii'>7 8 9</DataArray></CellData><Points><DataArray type='Float64' NumberOfComponents='3' "
+               "format='ascii'>0 0 0 1 0 0 1 1 0 0 1 0</DataArray></Points><Cells>"
+               "<DataArray type='Int64' Name='connectivity' format='ascii'>0 1 2 0 1 0 2 3</DataArray>"
+               "<DataArray type='Int64' Name='offsets' format='ascii'>3 5 8</DataArray>"
+               "<DataArray type='UInt8' Name='types' format='ascii'>5 3 5</DataArray></Cells></Piece>"
+               "</UnstructuredGrid></VTKFile>");
+  TriangleData data;
+  CHECK(read_mesh(path, {}, data).triangles.size() == 2);
+  CHECK(data == TriangleData{{"u_0", {1, 5}}, {"u_1", {2, 6}}, {"q", {7, 9}}});
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -81,6 +82,25 @@ TEST_CASE("a refiner made from a copy of mesh and state continues identically") 
   }
 }
 
+TEST_CASE("one made in the coarse stage continues identically, and the fine stage goes by blocks") {
+  QualityBounds bounds;
+  bounds.plain.area = 1.0 / 400'000;
+  Triangulation mesh = triangulate(rectangle(1, 1));
+  Refiner refiner(mesh, bounds);
+  refiner.refine(500);
+  REQUIRE(refiner.state().stage == RefinerState::Stage::kCoarse);
+  Triangulation copy = mesh;
+  Refiner again(copy, bounds, refiner.state());
+  while (refiner.state().stage == RefinerState::Stage::kCoarse) refiner.refine(100);
+  while (again.state().stage == RefinerState::Stage::kCoarse) again.refine(100);
+  REQUIRE(mesh.triangles.size() == copy.triangles.size());
+  for (const TriangleId t : ids_of(mesh.triangles)) REQUIRE(mesh.triangles[t].vertex == copy.triangles[t].vertex);
+  REQUIRE(refiner.state().stage == RefinerState::Stage::kFine);
+  const auto [cursor, block_end, given, added, block] = refiner.state().sweep.places();
+  CHECK(given > 1000);
+  CHECK(block < given / 2);
+}
+
 TEST_CASE("a state that refers to parts outside its mesh is rejected") {
   Triangulation mesh = triangulate(fan(7, 9));
   const QualityBounds bounds;
@@ -112,6 +132,41 @@ TEST_CASE("a state that refers to parts outside its mesh is rejected") {
   state = {};
   state.made = {{kNone, 1}};
   refused(state, "split point");
+  for (const std::int64_t count : {std::int64_t{-1}, std::int64_t{1} << 60})
+    for (std::int64_t RefineCounters::*counter :
+         {&RefineCounters::free_points, &RefineCounters::segment_points, &RefineCounters::deleted_points,
+          &RefineCounters::encroaching, &RefineCounters::given_up}) {
+      state = {};
+      state.counters.*counter = count;
+      refused(state, "counter");
+    }
+}
+
+TEST_CASE("a state knows the size at every vertex, and bounds are for the regions that there are") {
+  class One final : public SizeField {
+   public:
+    [[nodiscard]] double edge_length(const Point&) const override { return 0.1; }
+  };
+  const One size;
+  Pslg pslg = rectangle(2, 1);
+  pslg.points.insert(pslg.points.end(), {{1, 0}, {1, 1}});
+  pslg.segments = {{0, 4, 1}, {4, 1, 1}, {1, 2, 1}, {2, 5, 1}, {5, 3, 1}, {3, 0, 1}, {4, 5, 1}};
+  pslg.regions = {{{0.5, 0.5}, 1, 0.25}, {{1.5, 0.5}, 2, 0.5}};
+  Triangulation mesh = triangulate(pslg);
+  QualityBounds bounds;
+  bounds.region_max_area = areas_by_region(pslg);
+  bounds.size = &size;
+  REQUIRE(SizeBounds(bounds).regions() > 1);
+  RefinerState state = RefinerState::at_start(mesh, bounds);
+  CHECK_NOTHROW(Refiner(mesh, bounds, state));
+  RefinerState unknown = state;
+  unknown.size.resize(mesh.points.size() - 1, 0.1);
+  CHECK_THROWS_WITH_AS(Refiner(mesh, bounds, unknown), doctest::Contains("size"), Error);
+  const std::size_t labels = SizeBounds(bounds).regions();
+  mesh.region[TriangleId{0}] = static_cast<std::uint16_t>(labels);
+  CHECK_THROWS_WITH_AS(Refiner(mesh, bounds, state), doctest::Contains("region"), Error);
+  mesh.region[TriangleId{0}] = static_cast<std::uint16_t>(labels - 1);
+  CHECK_NOTHROW(Refiner(mesh, bounds, state));
 }
 
 TEST_CASE(
@@ -154,13 +209,13 @@ TEST_CASE(
     CHECK(saw(Stage::kDone));
     if (least > 0.01) continue;
     CHECK(mesh.live_vertices() > 120'000);
-    CHECK(saw(Stage::kFine));
+    CHECK(saw(RefinerState::Stage::kFine));
     // Few points make the coarse mesh: the first slice goes through it.
     Triangulation coarse = triangulate(pslg);
     prepare_corners(coarse);
     Refiner begins(coarse, bounds);
     begins.refine(20);
-    CHECK(begins.state().stage == Stage::kCoarse);
+    CHECK(begins.state().stage == RefinerState::Stage::kCoarse);
   }
 }
 
@@ -328,5 +383,83 @@ TEST_CASE("refinement ends at a number of points") {
     bounds.plain.area = 1e-4;
     CHECK(Refiner(mesh, bounds).refine() == Refiner::Status::kFull);
     CHECK(static_cast<std::int64_t>(mesh.live_vertices()) == 4 + most);
+  }
+}
+
+TEST_CASE("counters add up to the points there are, after each slice") {
+  class Ring final : public SizeField {  // sharp enough for a coarse stage, and for vertices to be deleted
+   public:
+    [[nodiscard]] double edge_length(const Point& p) const override {
+      return 0.004 + 0.3 * std::abs(std::hypot(p.x, p.y) - 0.5);
+    }
+  };
+  const Ring ring;
+  RefineCounters sum;
+  bool deferred = false;
+  for (const int wedges : {0, 3, 20})
+    for (const bool sized : {false, true}) {
+      CAPTURE(wedges);
+      CAPTURE(sized);
+      Triangulation mesh = triangulate(fan(11, wedges));
+      prepare_corners(mesh, {20, false});
+      const auto before = static_cast<std::int64_t>(mesh.live_vertices());
+      QualityBounds bounds;
+      bounds.plain.area = 1e-3;
+      if (sized) bounds.size = &ring;
+      Refiner refiner(mesh, bounds);
+      const auto agree = [&] {
+        const RefineCounters& c = refiner.counters();
+        return static_cast<std::int64_t>(mesh.live_vertices()) ==
+               before + c.free_points + c.segment_points - c.deleted_points;
+      };
+      while (refiner.refine(97) == Refiner::Status::kBudget) {
+        REQUIRE(agree());
+        deferred = deferred || !refiner.state().deferred.empty();
+      }
+      CHECK(agree());
+      CHECK(refiner.state().deferred.empty());
+      const RefineCounters& c = refiner.counters();
+      sum.free_points += c.free_points, sum.segment_points += c.segment_points;
+      sum.deleted_points += c.deleted_points, sum.encroaching += c.encroaching;
+      CHECK(c.given_up == 0);
+    }
+  CHECK(deferred);
+  for (const std::int64_t count : {sum.free_points, sum.segment_points, sum.deleted_points, sum.encroaching})
+    CHECK(count > 0);
+}
+
+TEST_CASE("where coordinates are too coarse for another point, triangles are given up, counted, and not tried again") {
+  constexpr double kFar = 0x1p52;  // numbers are 1 apart there
+  std::mt19937 random(1);
+  std::size_t unsplittable = 0;
+  for (int drawn = 0; drawn < 50; ++drawn) {
+    CAPTURE(drawn);
+    Pslg pslg;
+    for (int i = 0; i < 3; ++i)
+      pslg.points.push_back({kFar + static_cast<double>(random() % 7), kFar + static_cast<double>(random() % 7)});
+    pslg.segments = {{0, 1, 1}, {1, 2, 1}, {2, 0, 1}};
+    if (orient2d(pslg.points[0], pslg.points[1], pslg.points[2]) == 0) continue;
+    Triangulation mesh = triangulate(pslg);
+    QualityBounds bounds;
+    bounds.plain.area = 0.1;
+    Refiner refiner(mesh, bounds);
+    CHECK(refiner.refine(100'000) == Refiner::Status::kDone);
+    CHECK(refiner.counters().given_up > 0);
+    unsplittable += refiner.state().unsplittable.size();
+    check_valid(mesh);
+  }
+  CHECK(unsplittable > 0);
+}
+
+TEST_CASE("a mesh has at most one triangle more than its limit") {
+  for (std::int64_t most = 3; most < 200; ++most) {
+    Triangulation mesh = triangulate(fan(3, 5));
+    if (static_cast<std::int64_t>(mesh.live_triangles()) >= most) continue;
+    QualityBounds bounds;
+    bounds.plain.area = 1e-3;
+    Refiner refiner(mesh, bounds);
+    refiner.limit_triangles(most);
+    CHECK(refiner.refine() == Refiner::Status::kFull);
+    CHECK(static_cast<std::int64_t>(mesh.live_triangles()) <= most + 1);
   }
 }

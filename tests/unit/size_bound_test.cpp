@@ -13,6 +13,7 @@
 #include "mesh/bound_forecast.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/refiner.hpp"
+#include "sizing/time_step.hpp"
 #include "small_domains.hpp"
 
 // Bounds of any kinds together. Those that requests have are in property/bounds_property_test.cpp.
@@ -126,4 +127,17 @@ TEST_CASE("a bound that is not a number is refused") {
   CHECK_THROWS_WITH_AS(SizeBounds{bounds}, doctest::Contains("not a number"), Error);
   Triangulation mesh = triangulate(rectangle(1, 1));
   CHECK_THROWS_AS(Refiner(mesh, bounds), Error);
+}
+
+TEST_CASE("coarser bounds are for work to be estimated: larger by a factor, and without a time step") {
+  const SizeBounds bounds({std::make_shared<ByLabel>(std::vector<double>{1, 4}), std::make_shared<FromLine>(0.5)});
+  const SizeBounds coarse = bounds.coarser(9);
+  for (const std::size_t label : {0, 1}) CHECK(coarse.twice_area(label) == 9 * bounds.twice_area(label));
+  for (const double x : {0.0, 0.5, 2.0})
+    CHECK(coarse.length_at({x, 1}) == doctest::Approx(3 * bounds.length_at({x, 1})));
+  const TimeStep step({}, nullptr);
+  QualityBounds with_step;
+  with_step.step = &step;
+  CHECK(SizeBounds(with_step).step() == &step);
+  CHECK(SizeBounds(with_step).coarser(9).step() == nullptr);
 }
