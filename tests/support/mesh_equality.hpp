@@ -21,6 +21,7 @@ inline void check_same_mesh(const Mesh& actual, const Mesh& expected) {
   CHECK(actual.names == expected.names);
   CHECK(actual.attribute_names == expected.attribute_names);
   CHECK(actual.coordinates == expected.coordinates);
+  CHECK(actual.weirs == expected.weirs);
 }
 
 }  // namespace driftmesh::test

@@ -4,16 +4,22 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "base/bytes.hpp"
+#include "distributed/census.hpp"
+#include "distributed/ghost_layer.hpp"
+#include "distributed/mesh_bytes.hpp"
 #include "support/adversarial_network.hpp"
 #include "support/distributed_case.hpp"
 #include "support/error_text.hpp"
 #include "support/id_literals.hpp"
+#include "support/mesh_equality.hpp"
 
 // Pieces of a distributed mesh: what ranks number and share, and what they refuse.
 
@@ -157,23 +163,27 @@ TEST_CASE("a coordinate that differs in its last bit between subdomains of a ran
 TEST_CASE("attributes of input points stay what they are, whatever those around them are") {
   TwoSquares squares;
   for (SubdomainMesh& part : squares.parts) split(part, kSeparator, {1});
-  Pslg pslg = two_squares_input();
-  pslg.attributes_per_point = 2;
-  pslg.attributes = {1, 10, INFINITY, 20, 3, 30, 4, 40};
-  PieceAssembly one(0_rank, 2, squares.d, squares.held({0_sub})), other(1_rank, 2, squares.d, squares.held({1_sub}));
-  talk({&one, &other});
-  for (const PieceAssembly* const assembly : {&one, &other}) {
-    const DistributedPiece piece = assembly->piece(pslg);
-    REQUIRE(piece.mesh.attributes.size() == 2 * piece.mesh.points.size());
-    int input_points = 0;
-    for (std::size_t v = 0; v < piece.mesh.points.size(); ++v)
-      for (std::size_t k = 0; k < pslg.points.size(); ++k)
-        if (piece.mesh.points[v] == pslg.points[k]) {
-          CHECK(piece.mesh.attributes[2 * v] == pslg.attributes[2 * k]);
-          CHECK(piece.mesh.attributes[2 * v + 1] == pslg.attributes[2 * k + 1]);
-          ++input_points;
-        }
-    CHECK(input_points == 2);
+  for (std::size_t infinite = 0; infinite < 4; ++infinite) {
+    CAPTURE(infinite);
+    Pslg pslg = two_squares_input();
+    pslg.attributes_per_point = 2;
+    pslg.attributes = {1, 10, 2, 20, 3, 30, 4, 40};
+    pslg.attributes[2 * infinite] = INFINITY;
+    PieceAssembly one(0_rank, 2, squares.d, squares.held({0_sub})), other(1_rank, 2, squares.d, squares.held({1_sub}));
+    talk({&one, &other});
+    for (const PieceAssembly* const assembly : {&one, &other}) {
+      const DistributedPiece piece = assembly->piece(pslg);
+      REQUIRE(piece.mesh.attributes.size() == 2 * piece.mesh.points.size());
+      int input_points = 0;
+      for (std::size_t v = 0; v < piece.mesh.points.size(); ++v)
+        for (std::size_t k = 0; k < pslg.points.size(); ++k)
+          if (piece.mesh.points[v] == pslg.points[k]) {
+            CHECK(piece.mesh.attributes[2 * v] == pslg.attributes[2 * k]);
+            CHECK(piece.mesh.attributes[2 * v + 1] == pslg.attributes[2 * k + 1]);
+            ++input_points;
+          }
+      CHECK(input_points == 2);
+    }
   }
 }
 
@@ -302,4 +312,121 @@ TEST_CASE("messages that are not part of an exchange are errors that name the se
   CHECK(send_to_rank_0(message(kMark, 0, {0}, 0, 0xFFFFFFFF)).find("message from rank 1: it is part 0 of") == 0);
   CHECK(send_to_rank_0(message(kMark, 0, {0}, 1, 3)) == "no error");  // the others may come
   CHECK(send_to_rank_0(message(kMark, 5, {0})) == "no error");        // from a rank that is ahead: it waits
+}
+
+TEST_CASE("a census is of subdomains in order, each with the roots that it was given") {
+  TwoSquares squares;
+  const auto census = [&](std::vector<SubdomainId> visited, bool swapped) {
+    return error_text([&] {
+      static_cast<void>(take_census(squares.d, [&](const ShowSubdomain& show) {
+        for (const SubdomainId i : visited) show(i, squares.parts[swapped ? SubdomainId{1 - to_int(i)} : i]);
+      }));
+    });
+  };
+  CHECK(census({0_sub, 1_sub}, false) == "no error");
+  CHECK(mentions(census({1_sub, 0_sub}, false), {"subdomain 0 is visited out of order"}));
+  CHECK(mentions(census({1_sub, 1_sub}, false), {"subdomain 1 is visited out of order"}));
+  CHECK(mentions(census({0_sub}, true), {"subdomain 0 does not have the roots"}));
+  CHECK(mentions(error_text([&] { static_cast<void>(census_of(squares.d, 2_sub, squares.parts[0_sub])); }),
+                 {"subdomain 2 is not in the decomposition"}));
+}
+
+TEST_CASE("a message has as many parts as it fills") {
+  for (const auto& [length, parts] : {std::pair{0, 1}, {1, 1}, {7, 1}, {8, 1}, {9, 2}, {16, 2}, {17, 3}}) {
+    CAPTURE(length);
+    protocol::AdversarialNetwork network(2, protocol::Adversary::from_seed(1));
+    Words words(0_rank, 2, static_cast<std::size_t>(length));
+    ExchangeRunner runner(network.transport(0_rank), 8);
+    (void)runner.step(words);
+    CHECK(std::cmp_equal(network.in_flight(), parts));
+  }
+}
+
+TEST_CASE("directly, too, mail comes only from those that are due") {
+  class Surprised final : public Exchange {
+   public:
+    explicit Surprised(bool expects) : expects_(expects) {}
+    [[nodiscard]] int rounds() const override { return 1; }
+    [[nodiscard]] std::vector<Mail> send(int) override { return {{0_rank, Bytes(1)}}; }
+    [[nodiscard]] std::vector<Rank> senders(int) const override {
+      return expects_ ? std::vector{0_rank} : std::vector<Rank>{};
+    }
+    void receive(int, std::vector<Mail>) override {}
+
+   private:
+    bool expects_;
+  };
+  for (const bool expects : {true, false}) {
+    Surprised one(expects);
+    const IdVector<Rank, Exchange*> ranks{&one};
+    CHECK(error_text([&] { exchange_directly(ranks); }) ==
+          (expects ? "no error" : "rank 0 has messages from other ranks than it expects, in round 0"));
+  }
+}
+
+TEST_CASE("ghosts without points, and a subdomain of two ranks, are errors that name the sender") {
+  const auto piece = [](Rank self, std::int32_t subdomain) {
+    DistributedPiece made;
+    made.rank = self;
+    made.ranks = 2;
+    made.mesh.points = {{0, 0}, {1, 0}, {0, 1}};
+    made.mesh.triangles = {{0, 1, 2}};
+    made.mesh.numbers = {0, 1, 2};
+    made.mesh.subdomains = {subdomain};
+    made.mesh.ranks = {to_int(self)};
+    made.owners.assign(3, 0_rank);
+    made.neighbors = {{Rank{1 - to_int(self)}, {0, 1, 2}}};
+    return made;
+  };
+  const auto said = [&](const std::function<void(DistributedPiece&)>& spoil) {
+    const DistributedPiece own = piece(0_rank, 0);
+    DistributedPiece other = piece(1_rank, 1);
+    spoil(other);
+    GhostLayer here(own), there(other);
+    std::vector<Mail> mail{here.send(0)[0], there.send(0)[0]};
+    mail[1].rank = 1_rank;
+    return error_text([&] { here.receive(0, mail); });
+  };
+  CHECK(said([](DistributedPiece&) {}) == "no error");
+  CHECK(mentions(said([](DistributedPiece& p) { p.mesh.subdomains = {0}; }),
+                 {"rank 1", "has subdomain 0, and so has another one"}));
+  // What is sent is what a neighbor made of it: corners that are not there have to be put into its bytes.
+  const DistributedPiece own = piece(0_rank, 0), other = piece(1_rank, 1);
+  GhostLayer here(own), there(other);
+  const std::vector<Mail> mail{here.send(0)[0], {1_rank, there.send(0)[0].bytes}};
+  const Bytes good = mesh_to_bytes(other.mesh);
+  for (const std::int32_t corner : {3, -1, 1'000'000}) {
+    DistributedPiece spoiled = other;
+    spoiled.mesh.triangles[0][1] = corner;
+    std::vector<Mail> changed = mail;
+    const Bytes bad = mesh_to_bytes(spoiled.mesh);
+    REQUIRE(bad.size() == good.size());
+    const auto at = std::ranges::search(changed[1].bytes, good).begin();
+    REQUIRE(at != changed[1].bytes.end());
+    std::ranges::copy(bad, at);
+    GhostLayer again(own);
+    static_cast<void>(again.send(0));
+    CHECK(mentions(error_text([&] { again.receive(0, changed); }), {"rank 1", "its triangles have no points"}));
+  }
+}
+
+TEST_CASE("a mesh is the same once it was sent, with all that it has") {
+  Mesh mesh;
+  mesh.points = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
+  mesh.triangles = {{0, 1, 2}, {2, 1, 3}};
+  mesh.edges = {{0, 1, 5}, {1, 3, -7}};
+  mesh.point_markers = {1, 2, 3, 4};
+  mesh.attributes_per_point = 2;
+  mesh.attributes = {1, -0.0, 3, 4, 5, 6, 7, 8};
+  mesh.attribute_names = {"depth", "friction 50%"};
+  mesh.regions = {0.5, 3};
+  mesh.numbers = {4, 3, 9, 1'000'000'000'000};
+  mesh.subdomains = {6, 7};
+  mesh.ranks = {1, 0};
+  mesh.names = {{{5, "inlet"}, {-7, "wall"}}, {{0.5, "sand"}}};
+  mesh.weirs = {{.type = 24, .points = {0, 1}, .across = {2, 3}, .values = {1, 2, 3, 4, 5, 6}},
+                {.type = 3, .points = {1}, .across = {}, .values = {0.25, 1}}};
+  mesh.coordinates = "EPSG:32618";
+  test::check_same_mesh(mesh_of({2_rank, mesh_to_bytes(mesh)}), mesh);
+  test::check_same_mesh(mesh_of({2_rank, mesh_to_bytes({})}), {});
 }
