@@ -1,12 +1,16 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "distributed/piece_series.hpp"
 #include "distributed/write_distributed.hpp"
 #include "distributed/write_together.hpp"
 #include "driftmesh/generate.hpp"
@@ -224,4 +228,65 @@ TEST_CASE("rank 0 writes the whole mesh, and all ranks learn of a failure") {
   CHECK(verify(read_mesh(folder.path() / "plate.msh"), c.input, {}).accepted());
   for (const std::string& message : write("no-such-folder/plate.vtu"))
     CHECK(mentions(message, {"rank 0: ", "no-such"}));
+}
+
+TEST_CASE("a point is a duplicate in all pieces but its owner's") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "plate.pvtu";
+  ThreeWriters three(path);
+  CHECK(write_all(three.exchanges) == std::vector<std::string>(3));
+  std::size_t duplicates = 0;
+  for (const DistributedPiece& piece : three.pieces) {
+    const std::string bytes = file_bytes(folder.path() / ("plate_" + to_string(piece.rank) + ".vtu"));
+    const std::size_t array = bytes.find("Name=\"vtkGhostType\"", bytes.find("<PointData"));
+    REQUIRE(array < bytes.find("</PointData>"));
+    const std::size_t offset = std::stoul(bytes.substr(bytes.find("offset=\"", array) + 8));
+    const std::size_t first = bytes.find('_', bytes.find("<AppendedData")) + 1 + offset + 8;
+    for (std::size_t v = 0; v < piece.owners.size(); ++v) {
+      REQUIRE(bytes.at(first + v) == (piece.owners[v] == piece.rank ? 0 : 1));
+      duplicates += piece.owners[v] == piece.rank ? 0 : 1;
+    }
+  }
+  CHECK(duplicates > 10);
+}
+
+TEST_CASE("pieces that do not fit are not one mesh, and all ranks say so") {
+  const DistributedCase c = plate(9);
+  std::vector<DistributedPiece> pieces = c.pieces(3, random_owners(c.parts.size(), 3, 5));
+  const std::int32_t shared = pieces[1].neighbors.front().shared.front();
+  pieces[1].mesh.points[to_index(shared)].x += 1e-3;
+  std::vector<GatherPieces> gathers(pieces.begin(), pieces.end());
+  for (const std::string& message : write_all({&gathers[0], &gathers[1], &gathers[2]}))
+    CHECK(mentions(message, {"the pieces of the mesh do not fit together", "coordinates"}));
+}
+
+TEST_CASE("a series has a piece for every five million triangles that are expected") {
+  for (const auto& [predicted, pieces] : {std::pair{1.0, 1}, {1e6, 2}, {2e6, 4}, {5e6, 10}, {9e6, 10}}) {
+    Decomposition decomposition;
+    decomposition.subdomains.resize(10);
+    for (auto& subdomain : decomposition.subdomains) subdomain.predicted = predicted;
+    CHECK(PieceSeries::count(decomposition) == pieces);
+  }
+}
+
+TEST_CASE("what all ranks write is in the coordinates that are asked for") {
+  const TemporaryFolder folder;
+  const DistributedCase c = plate(2);
+  DistributedPiece piece = c.pieces(1, {0_rank, 0_rank})[0_rank];
+  for (Point& p : piece.mesh.points) p = {500'000 + 1000 * p.x, 4'000'000 + 1000 * p.y};
+  piece.mesh.coordinates = "UTM zone 18N";
+  const std::vector<std::string> paths{folder.path() / "as-is.h5", folder.path() / "lonlat.h5"};
+  protocol::AdversarialNetwork network(1, protocol::Adversary::from_seed(3));
+  ExchangeRunner runner(network.transport(0_rank));
+  write_distributed(runner, piece, std::span(paths).first(1), {});
+  write_distributed(runner, piece, std::span(paths).last(1), {.crs = "lonlat"});
+  const bool same = file_bytes(paths[0]) == file_bytes(paths[1]);
+  CHECK(!same);
+  const Mesh as_is = read_mesh(paths[0]), back = read_mesh(paths[1]);
+  CHECK(as_is.points == piece.mesh.points);
+  REQUIRE(back.points.size() == as_is.points.size());
+  double largest = 0;  // of what comes back to the plane, a millimeter at most
+  for (std::size_t v = 0; v < back.points.size(); ++v)
+    largest = std::max(largest, std::hypot(back.points[v].x - as_is.points[v].x, back.points[v].y - as_is.points[v].y));
+  CHECK(largest < 1e-3);
 }
