@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <vector>
+
 #include "balancer/policies/policy_factory.hpp"
 #include "driftmesh/error.hpp"
 #include "runtime_fixture.hpp"
@@ -27,9 +29,14 @@ TEST_CASE("a rank that abandons the run ends it on all ranks, and no message is 
       bool was_at_work = false;
       run.steps[static_cast<Rank>(seed % 3)] = [&, steps = std::uint64_t{0}]() mutable {
         const auto result = quitter->step();
+        if (quitter->abandoned()) CHECK_FALSE(quitter->at_work());
         if (++steps != 4 * seed || result == protocol::StepResult::kFinished) return result;
         was_at_work = quitter->at_work();
         quitter->abandon();
+        const Rank next{static_cast<std::int32_t>((seed + 1) % 3)};
+        std::vector<SubdomainId> here;
+        for (const auto& held : quitter->subdomains()) here.push_back(held.first);
+        for (const SubdomainId id : here) CHECK_FALSE(quitter->hand_over(id, next));
         return protocol::StepResult::kBusy;
       };
       REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);

@@ -24,7 +24,7 @@ using namespace driftmesh::testing;
 
 namespace {
 
-/// Counts what a rank sends.
+/// Counts what a rank sends, and the time that it says to spend.
 class CountedSends final : public protocol::Transport {
  public:
   explicit CountedSends(protocol::Transport& inner) : inner_(inner) {}
@@ -38,9 +38,13 @@ class CountedSends final : public protocol::Transport {
   std::optional<protocol::Received> poll() override { return inner_.poll(); }
   void idle() override { inner_.idle(); }
   [[nodiscard]] double now() const override { return inner_.now(); }
-  void spend(double seconds) override { inner_.spend(seconds); }
+  void spend(double seconds) override {
+    spent += seconds;
+    inner_.spend(seconds);
+  }
 
   std::uint64_t messages = 0, message_bytes = 0;
+  double spent = 0;
 
  private:
   protocol::Transport& inner_;
@@ -68,6 +72,12 @@ void run_with_moves(const RunPlan& plan, std::int32_t ranks, std::uint64_t seed,
   IdVector<Rank, protocol::RankStep> steps;
   IdVector<Rank, std::unique_ptr<SimulatedCrew>> crews;
   Passages handed_over, settled;
+  CostModel costs;  // a second for each byte that is packed or unpacked, and nothing else
+  for (double CostModel::*const other : {&CostModel::start, &CostModel::prepared, &CostModel::point, &CostModel::asleep,
+                                         &CostModel::woken, &CostModel::packed_byte})
+    costs.*other = 0;
+  costs.packed_byte = 1;
+  IdVector<Rank, double> packed(to_index(ranks), 0);
   for (const Rank r : first_ids<Rank>(ranks)) {
     transports.push_back(std::make_unique<CountedSends>(network.transport(r)));
     RankLoop::Observers observers;
@@ -76,15 +86,17 @@ void run_with_moves(const RunPlan& plan, std::int32_t ranks, std::uint64_t seed,
     };
     observers.handed_over = [&, r](const RankLoop&, const RankLoop::Passage& p) {
       ++left[r];
+      packed[r] += static_cast<double>(p.bytes);
       note_passage(handed_over, p);
     };
     observers.settled = [&, r](const RankLoop& loop, const RankLoop::Passage& p) {
       ++came[r];
+      packed[r] += static_cast<double>(p.bytes);
       CHECK(p.to == r);
       CHECK(loop.protocol().holds(p.subdomain));
       note_passage(settled, p);
     };
-    loops.push_back(std::make_unique<SubdomainLoop>(*transports[r], plan, CostModel{}, observers));
+    loops.push_back(std::make_unique<SubdomainLoop>(*transports[r], plan, costs, observers));
     if (seed % 3 == 0) {
       crews.push_back(std::make_unique<SimulatedCrew>(2, seed + static_cast<std::uint64_t>(to_int(r))));
       loops[r]->hire(*crews.back());
@@ -126,6 +138,7 @@ void run_with_moves(const RunPlan& plan, std::int32_t ranks, std::uint64_t seed,
     CHECK(outcome.message_bytes == transports[r]->message_bytes);
     CHECK(outcome.counters.hand_offs == left[r]);
     CHECK(outcome.counters.arrivals == came[r]);
+    CHECK(transports[r]->spent == packed[r]);
     moved += left[r];
     for (const auto& [id, subdomain] : loops[r]->subdomains()) {
       if (subdomain.dormant()) const_cast<Subdomain&>(subdomain).wake();
