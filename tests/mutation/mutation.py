@@ -307,6 +307,7 @@ def main():
     parser.add_argument("--box", action="append", help="only the faults of this file of faults/ (migration, protocol, ...); no others are built")
     parser.add_argument("--changed", metavar="BASE", help="only faults in files that differ from this commit")
     parser.add_argument("--line", action="append", metavar="FILE:LINE", help="only the fault that begins at this line of faults/, as messages name it")
+    parser.add_argument("--left", action="store_true", help="only faults that were missed on this copy, or not tried yet")
     parser.add_argument("--tests", metavar="REGEX", default="", help="run only tests with such names, as in 'runtime_|subdomain_state' (default: all)")
     parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count(), help="faults at a time (default: all cores)")
     parser.add_argument("--longest", type=float, default=20, metavar="SECONDS", help="leave out tests that take longer (default: 20)")
@@ -340,6 +341,8 @@ def main():
     if broken:
         say("these fail without a fault, and are left out: " + ", ".join(broken[:20]))
     kept = Verdicts()
+    if options.left:
+        some = [f for f in some if not (known := kept.of(f)) or not known.noticed]
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         jobs = [pool.submit(try_fault, f, usable, kept.killer(f), options.budget) for f in some]
         for job in concurrent.futures.as_completed(jobs):
@@ -349,7 +352,7 @@ def main():
                 say(f"{v.fault.line} is called harmless, but {v.by} notices it: {v.fault.meaning}")
             elif not v.noticed and not v.fault.harmless:
                 say(f"{v.how}: {v.fault.line} ({v.fault.file}), {v.tried} tests, {v.seconds:.0f} s: {v.fault.meaning} {v.by}")
-    verdicts = in_order(kept, some)
+    verdicts = in_order(kept, chosen(faults.read(), options))
     counted = [v for v in verdicts if not v.fault.harmless]
     share = sum(v.noticed for v in counted) / max(1, len(counted))
     made = table(verdicts)
