@@ -24,10 +24,9 @@ void require_sound(const Mesh& mesh, std::span<const double> indicators, double 
   if (wrong != indicators.end())
     throw Error(what + "the indicator of triangle " + std::to_string(wrong - indicators.begin()) +
                 " (counted from 0) is " + std::to_string(*wrong) + "; it must be at least 0, and finite");
-  for (const double value : {target, order})
+  for (const auto& [name, value] : {std::pair("target", target), {"order", order}})
     if (!(value > 0 && std::isfinite(value)))
-      throw Error(what + (value == target ? "target" : "order") + " is " + std::to_string(value) +
-                  "; it must be positive");
+      throw Error(what + name + " is " + std::to_string(value) + "; it must be positive");
 }
 
 /// What is known at points and of subdomains, from the errors of their triangles.

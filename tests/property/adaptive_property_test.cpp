@@ -383,9 +383,20 @@ TEST_CASE("wrong use is one clear error, and changes nothing") {
   CHECK(mentions(error_text([&] { AdaptiveMesh(square(), {}, {.gradation = -1}); }), "gradation"));
   CHECK(mentions(error_text([&] { AdaptiveMesh(square(), {}, {.shortest = 2, .longest = 1}); }), "longest"));
   CHECK(mentions(error_text([&] { (void)mesh.lengths_from_error(std::vector<double>(2), 1); }), "2 indicators for"));
-  CHECK(mentions(
-      error_text([&] { (void)mesh.lengths_from_error(std::vector<double>(mesh.mesh().triangles.size(), -1.0), 1); }),
-      "indicator of triangle 0"));
+  const auto from_error = [&](double last, double target, double order) {
+    std::vector<double> indicators(mesh.mesh().triangles.size(), 1.0);
+    indicators.back() = last;
+    return error_text([&] { (void)mesh.lengths_from_error(indicators, target, order); });
+  };
+  CHECK(from_error(0, 1, 2) == "no error");
+  for (const double wrong : {-1.0, HUGE_VAL, std::nan("")}) {
+    CHECK(
+        mentions(from_error(wrong, 1, 2), "indicator of triangle " + std::to_string(mesh.mesh().triangles.size() - 1)));
+    CHECK(mentions(from_error(1, wrong, 2), "target"));
+    CHECK(mentions(from_error(1, 1, wrong), "order"));
+  }
+  CHECK(mentions(from_error(1, 0, 2), "target"));
+  CHECK(mentions(from_error(1, 1, 0), "order"));
 
   const Mesh before = mesh.mesh();
   const auto nested = [&](const Point&) {
