@@ -26,7 +26,7 @@ struct Hdf5Shape {
   VtuArrays arrays;
   Names names{};
   std::string coordinates{};              ///< see Mesh
-  std::vector<std::string> data_names{};  ///< of data at triangles
+  std::vector<std::string> data_names{};  ///< what data at triangles are called
 };
 /// Where arrays begin, by their names: byte offsets into the file. An array without elements has no place.
 using Hdf5Places = std::map<std::string, std::uint64_t>;
@@ -61,8 +61,8 @@ void write_hdf5(const Mesh& mesh, const TriangleData& data, const std::string& p
 /// Reads what these functions write. A file that ranks wrote gives the same mesh whichever rank held what (see
 /// merge_pieces), and nothing from other files (see require_own_content). Errors: InputError, FileError.
 [[nodiscard]] Mesh read_hdf5(const std::string& path);
-/// The numbers that such a file has at cells besides; none of a file that ranks wrote, whose triangles change places.
-/// Errors as read_hdf5.
-[[nodiscard]] TriangleData read_hdf5_triangle_data(const std::string& path);
+/// The same, with the numbers that the file has at cells besides; none of a file that ranks wrote, whose triangles
+/// change places.
+[[nodiscard]] Mesh read_hdf5(const std::string& path, TriangleData& data);
 
 }  // namespace driftmesh

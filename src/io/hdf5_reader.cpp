@@ -45,7 +45,7 @@ class Hdf5Reader {
     const std::uint64_t triangles = rows_of("/viz/topology/cells");
     const std::uint64_t cells = triangles + rows_of("/viz/topology/facets");
     TriangleData data;
-    if (!has("/VTKHDF/CellData") || has("/VTKHDF/PointData/global_number")) return data;
+    if (!has("/VTKHDF/CellData")) return data;
     for (const std::string& name : names_in("/VTKHDF/CellData")) {
       if (is_array_on_cells(name) || !fault_of_name(name).empty()) continue;
       const Array<double> table = array<double>(on_cells + name, cells, 0);
@@ -264,21 +264,26 @@ Mesh in_order(Mesh mesh, const std::string& path) {
   return mesh;
 }
 
-}  // namespace
-
-TriangleData read_hdf5_triangle_data(const std::string& path) {
-  const QuietHdf5 quiet;
-  require_own_content(path);
-  return Hdf5Reader(path).read_triangle_data();
-}
-
-Mesh read_hdf5(const std::string& path) {
+/// `data`: those at triangles are put there, unless null.
+Mesh read_mesh_and_data(const std::string& path, TriangleData* data) {
   const QuietHdf5 quiet;
   if (!std::filesystem::is_regular_file(path)) (void)read_file(path);  // says why not
   require_own_content(path);
-  Mesh mesh = Hdf5Reader(path).read();
+  Hdf5Reader file(path);
+  Mesh mesh = file.read();
   check_read_mesh(mesh, path);
+  if (data != nullptr && mesh.numbers.empty()) *data = file.read_triangle_data();
   return in_order(std::move(mesh), path);
+}
+
+}  // namespace
+
+Mesh read_hdf5(const std::string& path) {
+  return read_mesh_and_data(path, nullptr);
+}
+
+Mesh read_hdf5(const std::string& path, TriangleData& data) {
+  return read_mesh_and_data(path, &data);
 }
 
 }  // namespace driftmesh

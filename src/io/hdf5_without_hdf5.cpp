@@ -24,11 +24,11 @@ void write_hdf5(const Mesh& /*mesh*/, const TriangleData& /*data*/, const std::s
   refuse_hdf5(path);
 }
 
-TriangleData read_hdf5_triangle_data(const std::string& path) {
+Mesh read_hdf5(const std::string& path) {
   refuse_hdf5(path);
 }
 
-Mesh read_hdf5(const std::string& path) {
+Mesh read_hdf5(const std::string& path, TriangleData& /*data*/) {
   refuse_hdf5(path);
 }
 

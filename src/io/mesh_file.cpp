@@ -167,13 +167,14 @@ namespace {
 Mesh read(const std::string& path, const ReadOptions& options, TriangleData* data) {
   const MeshFormat& format = format_of(path);
   Mesh mesh;
-  if (format.read != nullptr) {
+  if (data != nullptr && format.read_with_data != nullptr) {
+    mesh = format.read_with_data(path, *data);
+  } else if (format.read != nullptr) {
     mesh = format.read(path, options);
-    if (data != nullptr && format.read_data != nullptr) *data = format.read_data(path);
   } else if (format.parse != nullptr) {
     const FileBytes bytes(path, format.begins);
-    mesh = format.parse(path, bytes.view());
-    if (data != nullptr && format.parse_data != nullptr) *data = format.parse_data(path, bytes.view());
+    mesh = data != nullptr && format.parse_with_data != nullptr ? format.parse_with_data(path, bytes.view(), *data)
+                                                                : format.parse(path, bytes.view());
   } else {
     refuse_to_read(path);
   }

@@ -64,7 +64,12 @@ std::vector<MeshFormat> all_formats() {
            .write = written<write_vtu>,
            .parse = [](const std::string& file, std::string_view bytes) { return parse_vtu(file, bytes); },
            .begins = kBeginsXml,
-           .parse_data = parse_vtu_triangle_data,
+           .parse_with_data =
+               [](const std::string& file, std::string_view bytes, TriangleData& data) {
+                 Mesh mesh = parse_vtu(file, bytes);
+                 data = parse_vtu_triangle_data(file, bytes);
+                 return mesh;
+               },
            .write_with_data = [](const Mesh& mesh, const TriangleData& data, const std::string& path,
                                  const WriteOptions&) { write_vtu_with_data(mesh, data, path); }},
           {.extensions = {".pvtu"},
@@ -82,7 +87,7 @@ std::vector<MeshFormat> all_formats() {
                        const WriteOptions& options) { write_msh(mesh, {}, path, options.ascii); },
            .parse = parse_msh,
            .begins = "$",
-           .parse_data = parse_msh_triangle_data,
+           .parse_with_data = parse_msh,
            .write_with_data = [](const Mesh& mesh, const TriangleData& data, const std::string& path,
                                  const WriteOptions& options) { write_msh(mesh, data, path, options.ascii); }},
           {.extensions = {".h5"},
@@ -90,7 +95,7 @@ std::vector<MeshFormat> all_formats() {
            .keeps = kDomainParts | kNamedParts | kSubdomains,
            .write = [](const Mesh& mesh, const std::string& path, const WriteOptions&) { write_hdf5(mesh, {}, path); },
            .read = [](const std::string& path, const ReadOptions&) { return read_hdf5(path); },
-           .read_data = read_hdf5_triangle_data,
+           .read_with_data = read_hdf5,
            .write_with_data = [](const Mesh& mesh, const TriangleData& data, const std::string& path,
                                  const WriteOptions&) { write_hdf5(mesh, data, path); },
            .files =

@@ -31,10 +31,10 @@ struct MeshFormat {
   /// Takes the place of `parse` for what is no sequence of bytes. Throws InputError, FileError.
   Mesh (*read)(const std::string& path, const ReadOptions& options) = nullptr;
 
-  /// What the bytes, or the file, have at triangles besides, and a mesh written with such data. Null: the format has no
+  /// The same with what they have at triangles besides, and a mesh written with such data. Null: the format has no
   /// place for them.
-  TriangleData (*parse_data)(const std::string& file, std::string_view bytes) = nullptr;
-  TriangleData (*read_data)(const std::string& path) = nullptr;
+  Mesh (*parse_with_data)(const std::string& file, std::string_view bytes, TriangleData& data) = nullptr;
+  Mesh (*read_with_data)(const std::string& path, TriangleData& data) = nullptr;
   void (*write_with_data)(const Mesh& mesh, const TriangleData& data, const std::string& path,
                           const WriteOptions& options) = nullptr;
 

@@ -19,7 +19,7 @@ void write_msh(const Mesh& mesh, const TriangleData& data, const std::string& pa
 /// the order of their tags. Markers and regions come from the names of the physical groups if write_msh wrote them,
 /// otherwise from the groups' tags; they are 0 for elements in no group. `file` is for messages.
 [[nodiscard]] Mesh parse_msh(const std::string& file, std::string_view bytes);
-/// The views on elements that have values for all triangles, in the order of the mesh. Errors as parse_msh.
-[[nodiscard]] TriangleData parse_msh_triangle_data(const std::string& file, std::string_view bytes);
+/// The same, with the views on elements that have a value for each triangle.
+[[nodiscard]] Mesh parse_msh(const std::string& file, std::string_view bytes, TriangleData& data);
 
 }  // namespace driftmesh

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -283,15 +284,23 @@ class MshParser {
     return view.integers[2];
   }
 
+  // What a view that others can have is called, if it has one value each and none before it has the name.
+  template <class Known>
+  static std::optional<std::string> name_of_other(const View& view, const std::vector<Known>& before) {
+    std::string name(view.name.size() < 2 ? view.name : view.name.substr(1, view.name.size() - 2));  // without quotes
+    const bool is_known = std::ranges::any_of(before, [&](const Known& known) { return known.name == name; });
+    if (is_known || view.integers.size() < 3 || view.integers[1] != 1 || view.integers[2] < 0) return std::nullopt;
+    if (!fault_of_name(name).empty() || before.size() == kMaxAttributes) return std::nullopt;
+    return name;
+  }
+
   // A view of another program, if it has one value each.
   template <class Input>
   bool parse_other_node_data(const View& view, Input& input) {
-    const std::string name = name_of(view);
-    const bool is_known = std::ranges::any_of(raw_.attributes, [&](const auto& known) { return known.name == name; });
-    if (is_known || view.integers.size() < 3 || view.integers[1] != 1 || view.integers[2] < 0) return false;
-    if (!fault_of_name(name).empty() || raw_.attributes.size() == kMaxAttributes) return false;
+    const std::optional<std::string> name = name_of_other(view, raw_.attributes);
+    if (!name) return false;
     RawMsh::Attribute& attribute = raw_.attributes.emplace_back();
-    attribute.name = name;
+    attribute.name = *name;
     attribute.is_other = true;
     for (std::int32_t left = view.integers[2]; left > 0; --left) {
       attribute.nodes.push_back(input.integer());
@@ -320,20 +329,13 @@ class MshParser {
     return true;
   }
 
-  // The name of a view that others can have, which is in quotes.
-  static std::string name_of(const View& view) {
-    return std::string(view.name.size() < 2 ? view.name : view.name.substr(1, view.name.size() - 2));
-  }
-
   // A view on elements, if it has one value each, and these are wanted.
   template <class Input>
   bool parse_element_view(const View& view, Input& input) {
-    const std::string name = name_of(view);
-    const bool is_known = std::ranges::any_of(raw_.views, [&](const auto& known) { return known.name == name; });
-    if (!views_ || is_known || view.integers.size() < 3 || view.integers[1] != 1 || view.integers[2] < 0) return false;
-    if (!fault_of_name(name).empty() || is_array_on_cells(name) || raw_.views.size() == kMaxAttributes) return false;
+    const std::optional<std::string> name = name_of_other(view, raw_.views);
+    if (!views_ || !name || is_array_on_cells(*name)) return false;
     RawMsh::ElementView& read = raw_.views.emplace_back();
-    read.name = name;
+    read.name = *name;
     for (std::int32_t left = view.integers[2]; left > 0; --left) {
       const std::int32_t element = input.integer();
       read.values.push_back({element, input.real()});

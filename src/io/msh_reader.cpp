@@ -256,8 +256,12 @@ Mesh parse_msh(const std::string& file, std::string_view bytes) {
   return mesh;
 }
 
-TriangleData parse_msh_triangle_data(const std::string& file, std::string_view bytes) {
-  return MshAssembler(file, parse_msh_sections(file, bytes, true)).triangle_data();
+Mesh parse_msh(const std::string& file, std::string_view bytes, TriangleData& data) {
+  MshAssembler assembler(file, parse_msh_sections(file, bytes, true));
+  Mesh mesh = assembler.assemble();
+  check_read_mesh(mesh, file);
+  data = assembler.triangle_data();
+  return mesh;
 }
 
 }  // namespace driftmesh
