@@ -341,10 +341,9 @@ def main():
     if broken:
         say("these fail without a fault, and are left out: " + ", ".join(broken[:20]))
     kept = Verdicts()
-    if options.left:
-        some = [f for f in some if not (known := kept.of(f)) or not known.noticed]
+    todo = [f for f in some if not options.left or not (known := kept.of(f)) or not known.noticed]
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        jobs = [pool.submit(try_fault, f, usable, kept.killer(f), options.budget) for f in some]
+        jobs = [pool.submit(try_fault, f, usable, kept.killer(f), options.budget) for f in todo]
         for job in concurrent.futures.as_completed(jobs):
             v = job.result()
             kept.keep(v)
@@ -352,7 +351,7 @@ def main():
                 say(f"{v.fault.line} is called harmless, but {v.by} notices it: {v.fault.meaning}")
             elif not v.noticed and not v.fault.harmless:
                 say(f"{v.how}: {v.fault.line} ({v.fault.file}), {v.tried} tests, {v.seconds:.0f} s: {v.fault.meaning} {v.by}")
-    verdicts = in_order(kept, chosen(faults.read(), options))
+    verdicts = in_order(kept, some)
     counted = [v for v in verdicts if not v.fault.harmless]
     share = sum(v.noticed for v in counted) / max(1, len(counted))
     made = table(verdicts)

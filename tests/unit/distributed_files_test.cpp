@@ -285,7 +285,7 @@ TEST_CASE("what all ranks write is in the coordinates that are asked for") {
   const Mesh as_is = read_mesh(paths[0]), back = read_mesh(paths[1]);
   CHECK(as_is.points == piece.mesh.points);
   REQUIRE(back.points.size() == as_is.points.size());
-  double largest = 0;  // of what comes back to the plane, a millimeter at most
+  double largest = 0;  // distance from where it was, once it is back in the plane
   for (std::size_t v = 0; v < back.points.size(); ++v)
     largest = std::max(largest, std::hypot(back.points[v].x - as_is.points[v].x, back.points[v].y - as_is.points[v].y));
   CHECK(largest < 1e-3);

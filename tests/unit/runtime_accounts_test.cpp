@@ -50,6 +50,16 @@ class CountedSends final : public protocol::Transport {
   protocol::Transport& inner_;
 };
 
+/// Work that costs nothing else.
+CostModel a_second_for(double CostModel::*cost) {
+  CostModel costs;
+  for (double CostModel::*const other : {&CostModel::start, &CostModel::prepared, &CostModel::point, &CostModel::asleep,
+                                         &CostModel::woken, &CostModel::packed_byte})
+    costs.*other = 0;
+  costs.*cost = 1;
+  return costs;
+}
+
 std::int64_t triangles_in(const SubdomainLoop& loop) {
   std::int64_t sum = 0;
   for (const auto& [id, subdomain] : loop.subdomains()) sum += subdomain.triangles();
@@ -72,11 +82,7 @@ void run_with_moves(const RunPlan& plan, std::int32_t ranks, std::uint64_t seed,
   IdVector<Rank, protocol::RankStep> steps;
   IdVector<Rank, std::unique_ptr<SimulatedCrew>> crews;
   Passages handed_over, settled;
-  CostModel costs;  // a second for each byte that is packed or unpacked, and nothing else
-  for (double CostModel::*const other : {&CostModel::start, &CostModel::prepared, &CostModel::point, &CostModel::asleep,
-                                         &CostModel::woken, &CostModel::packed_byte})
-    costs.*other = 0;
-  costs.packed_byte = 1;
+  const CostModel costs = a_second_for(&CostModel::packed_byte);
   IdVector<Rank, double> packed(to_index(ranks), 0);
   for (const Rank r : first_ids<Rank>(ranks)) {
     transports.push_back(std::make_unique<CountedSends>(network.transport(r)));
@@ -244,11 +250,7 @@ TEST_CASE("times of a rank follow from what its work costs") {
   const auto seconds_with = [](double CostModel::*cost, bool sleep, Presplit presplit) {
     RunPlan plan = plan_of(ell(), {20, {1e-3}, {}, nullptr}, 1, 12, presplit);
     plan.work.sleep = sleep;
-    CostModel costs;
-    for (double CostModel::*const other : {&CostModel::start, &CostModel::prepared, &CostModel::point,
-                                           &CostModel::asleep, &CostModel::woken, &CostModel::packed_byte})
-      costs.*other = 0;
-    costs.*cost = 1;
+    const CostModel costs = a_second_for(cost);
     protocol::VirtualNetwork network({IdVector<Rank, double>(1, 1.0), {}, 1e-9, 1e-9});
     SimulatedRanks run(network, 1, plan, costs);
     REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);

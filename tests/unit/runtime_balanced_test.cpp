@@ -26,7 +26,7 @@ struct BalancedCase {
   Presplit presplit = Presplit::kOn;
   bool sleep = false;
   std::size_t crew = 0;                    ///< threads that help each rank
-  std::int64_t max_triangles = INT64_MAX;  ///< of a rank
+  std::int64_t max_triangles = INT64_MAX;  ///< on each rank
   bool on_one_rank = false;                ///< at the start
 };
 
