@@ -226,28 +226,38 @@ class Verdict:
 class Verdicts:
     """Those of all runs on the copy, by the numbers of faults: a run may be stopped, and boxes may be tried one by one."""
 
-    def __init__(self):
+    def __init__(self, data):
         self.store = COPY / "verdicts.json"
         self.known = json.loads(self.store.read_text()) if self.store.is_file() else {}
+        self.killers = collections.defaultdict(collections.Counter)  # of faults in a file
+        for fault in data:
+            self.count(self.of(fault))
+
+    def count(self, v):
+        if v and v.noticed:
+            self.killers[v.fault.file][v.by] += 1
 
     def keep(self, v):
         self.known[str(v.fault.number)] = [v.how, v.by, v.tried, v.seconds]
         self.store.write_text(json.dumps(self.known))
+        self.count(v)
 
     def of(self, fault):
         known = self.known.get(str(fault.number))
         return known and Verdict(fault, *known)
 
-    def killer(self, fault):
+    def likely_killers(self, fault):
+        """The names of tests: what noticed it the last time, and what noticed most others in that file."""
         v = self.of(fault)
-        return v.by if v and v.noticed else None
+        return list(dict.fromkeys(([v.by] if v and v.noticed else []) + [name for name, _ in self.killers[fault.file].most_common(8)]))
 
 
-def try_fault(fault, usable, first, budget):
+def try_fault(fault, usable, kept, budget):
     passing = sorted((u for u in usable if fault.number % PLACES in u.places), key=lambda u: u.seconds)
     begin, tried = time.monotonic(), 0
-    known = [u for u in passing if u.name == first]
-    for some, unit in itertools.chain(((known, u) for u in known), batches([u for u in passing if u.name != first])):
+    by_name = {u.name: u for u in passing}
+    first = [by_name[name] for name in kept.likely_killers(fault) if name in by_name]
+    for some, unit in itertools.chain((([u], u) for u in first), batches([u for u in passing if u not in first])):
         if time.monotonic() - begin > budget:
             return Verdict(fault, "survived", f"{len(passing) - tried} tests not tried", tried, time.monotonic() - begin)
         outcome, said = unit.run(10 + (10 if len(some) == 1 else 4) * unit.seconds, DRIFTMESH_FAULT=str(fault.number))
@@ -340,10 +350,10 @@ def main():
     broken = [u.name for u in all_units.values() if u.fails]
     if broken:
         say("these fail without a fault, and are left out: " + ", ".join(broken[:20]))
-    kept = Verdicts()
+    kept = Verdicts(faults.read())
     todo = [f for f in some if not options.left or not (known := kept.of(f)) or not known.noticed]
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        jobs = [pool.submit(try_fault, f, usable, kept.killer(f), options.budget) for f in todo]
+        jobs = [pool.submit(try_fault, f, usable, kept, options.budget) for f in todo]
         for job in concurrent.futures.as_completed(jobs):
             v = job.result()
             kept.keep(v)

@@ -261,6 +261,10 @@ TEST_CASE("conserving transfer keeps integrals, bounds and constants") {
     mesh.attach("triangles", noise(triangles), FieldPlace::kTriangles, Transfer::kConserve);
     mesh.attach("corners", noise(3 * triangles), FieldPlace::kCorners, Transfer::kConserve);
     mesh.attach("plane", at_points(mesh.mesh(), plane), FieldPlace::kPoints, Transfer::kConserve);
+    std::vector<double> sloped;
+    for (const auto& corners : mesh.mesh().triangles)
+      for (const std::int32_t v : corners) sloped.push_back(plane(mesh.mesh().points[v]));
+    mesh.attach("sloped", sloped, FieldPlace::kCorners, Transfer::kConserve);
     mesh.attach("one", std::vector<double>(triangles, 1), FieldPlace::kTriangles, Transfer::kConserve);
     mesh.attach("ones", std::vector<double>(3 * triangles, 1), FieldPlace::kCorners, Transfer::kConserve);
     const std::vector<std::pair<const char*, FieldPlace>> noisy{
@@ -284,6 +288,12 @@ TEST_CASE("conserving transfer keeps integrals, bounds and constants") {
       for (std::size_t i = 0; i < mesh.mesh().points.size(); ++i)
         worst = std::max(worst, std::fabs(mesh.field("plane")[i] - plane(mesh.mesh().points[i])));
       CHECK(worst < 1e-11);
+      double worst_corner = 0;
+      for (std::size_t t = 0; t < mesh.mesh().triangles.size(); ++t)
+        for (std::size_t i = 0; i < 3; ++i)
+          worst_corner = std::max(worst_corner, std::fabs(mesh.field("sloped")[3 * t + i] -
+                                                          plane(mesh.mesh().points[mesh.mesh().triangles[t][i]])));
+      CHECK(worst_corner < 1e-8);  // projections add up
       for (const char* const name : {"one", "ones"}) {
         const auto [least, most] = std::ranges::minmax(mesh.field(name));
         CHECK(least > 1 - 1e-9);

@@ -116,11 +116,19 @@ class Case {
       outcome.asleep += subdomain.dormant();
       outcome.digest += mesh_digest(subdomain.dormant() ? subdomain.woken().mesh : subdomain.mesh().mesh);
     }
+    std::int64_t arrivals = 0, bytes = 0, messages = 0;
     for (const RankOutcome& thread : refinement.outcomes()) {
       outcome.moves += thread.counters.hand_offs;
       outcome.triangles += thread.triangles;
       outcome.splits += thread.interface_splits;
+      arrivals += thread.counters.arrivals;
+      bytes += thread.counters.hand_off_bytes;
+      messages += thread.messages;
     }
+    CHECK(arrivals == outcome.moves);
+    CHECK(bytes >= outcome.moves);
+    CHECK(messages >= outcome.moves);
+    CHECK((outcome.splits > 0) == (outcome.rounds > 1));  // a later round follows up on points of those before
     return outcome;
   }
 
@@ -381,7 +389,12 @@ TEST_CASE("progress is that of all threads") {
   std::mt19937_64 random = seeded_generator("threads");
   const Case c(random);
   std::int64_t last = 0;
-  const Outcome made = c.by_threads(3, Presplit::kOff, {.progress = [&](std::int64_t triangles) { last = triangles; }});
+  int repeated = 0;
+  const Outcome made = c.by_threads(3, Presplit::kOff, {.progress = [&](std::int64_t triangles) {
+                                      repeated += triangles == last;
+                                      last = triangles;
+                                    }});
   CHECK(last > 0);
+  CHECK(repeated < made.rounds);  // nothing is said twice in a round
   CHECK(last <= made.triangles);
 }

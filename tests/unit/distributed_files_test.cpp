@@ -182,6 +182,42 @@ TEST_CASE("ranks write one .h5 together, whichever holds what, and even if one h
   }
 }
 
+TEST_CASE("a line between two ranks is in their .h5 once, and regions are those of all") {
+  // A square of two triangles, each on a rank; the segment between them is in both pieces.
+  std::vector<DistributedPiece> pieces(2);
+  pieces[0].mesh.points = {{0, 0}, {1, 0}, {1, 1}};
+  pieces[0].mesh.numbers = {0, 1, 2};
+  pieces[0].mesh.edges = {{0, 1, 1}, {1, 2, 2}, {2, 0, 9}};
+  pieces[1].mesh.points = {{0, 0}, {1, 1}, {0, 1}};
+  pieces[1].mesh.numbers = {0, 2, 3};
+  pieces[1].mesh.edges = {{0, 1, 9}, {1, 2, 3}, {2, 0, 4}};
+  for (const std::int32_t r : {0, 1}) {
+    DistributedPiece& piece = pieces[r];
+    piece.rank = Rank{r};
+    piece.ranks = 2;
+    piece.mesh.triangles = {{0, 1, 2}};
+    piece.mesh.subdomains = piece.mesh.ranks = {r};
+    piece.mesh.point_markers = {0, 0, 0};
+    piece.mesh.regions = {0.25 + r};
+    piece.owners = {0_rank, 0_rank, Rank{r}};
+    piece.neighbors = {{Rank{1 - r}, r == 0 ? std::vector<std::int32_t>{0, 2} : std::vector<std::int32_t>{0, 1}}};
+    piece.has_regions = true;
+    piece.total_points = 4;
+    piece.total_triangles = 2;
+  }
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "square.h5";
+  WriteTogether one(pieces[0], path), two(pieces[1], path);
+  CHECK(write_all({&one, &two}) == std::vector<std::string>(2));
+  const Mesh read = read_mesh(path);
+  REQUIRE(read.edges.size() == 5);
+  std::vector<std::int32_t> markers;
+  for (const Mesh::Edge& edge : read.edges) markers.push_back(edge.marker);
+  std::ranges::sort(markers);
+  CHECK(markers == std::vector<std::int32_t>{1, 2, 3, 4, 9});
+  CHECK(read.regions == std::vector<double>{0.25, 1.25});
+}
+
 TEST_CASE("if rank 0 cannot make the .h5, every rank says why") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "none" / "plate.h5";

@@ -139,6 +139,18 @@ TEST_CASE("a triangulation that meets the angle bound is not refined") {
   CHECK(forecast_triangles(mesh, bounds_with(30, 0)) == static_cast<double>(mesh.live_triangles()));
 }
 
+TEST_CASE("a channel has as many triangles as its length needs") {
+  for (const double length : {10.0, 50.0, 400.0}) {
+    CAPTURE(length);
+    Triangulation mesh = prepared(rectangle(length, 1));
+    const QualityBounds bounds = bounds_with(20, 0);
+    const double forecast = forecast_triangles(mesh, bounds);
+    CHECK(Refiner(mesh, bounds).refine() == Refiner::Status::kDone);
+    CHECK(forecast / static_cast<double>(mesh.live_triangles()) > 0.5);
+    CHECK(forecast / static_cast<double>(mesh.live_triangles()) < 2);
+  }
+}
+
 TEST_CASE("bounds on area decide where they ask for more than the details do") {
   const Triangulation mesh = prepared(rectangle(2, 1));
   CHECK(forecast_triangles(mesh, bounds_with(20, 1e-6)) == doctest::Approx(1.55 * 2e6).epsilon(0.01));

@@ -199,7 +199,7 @@ TEST_CASE("a rank may have as many triangles as its limit says, and not one more
 
 TEST_CASE("the balancer hears of the work and the memory that a rank has") {
   for (const bool sleep : {false, true})
-    for (const double host_room : {1e300, 500.0}) {
+    for (const double host_room : {1e300, 1e9, 500.0}) {
       CAPTURE(host_room);
       RunPlan plan = plan_of(ell(), {20, {1e-4}, {}, nullptr}, 2, 40, Presplit::kOff);
       plan.work.sleep = sleep;

@@ -1,11 +1,22 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <set>
+#include <span>
+#include <thread>
+#include <utility>
 #include <vector>
 
+#include "base/thread_place.hpp"
+#include "driftmesh/policy.hpp"
 #include "protocol/packed_size.hpp"
 #include "protocol/virtual_network.hpp"
 #include "runtime/rank_loop.hpp"
+#include "runtime/threads/thread_crew.hpp"
 #include "support/id_literals.hpp"
 #include "support/simulated_crew.hpp"
 
@@ -38,7 +49,11 @@ class Toy final : public Work {
     --slices;
     triangles += 10;
     said.push_back({GlobalRootId{0}, 1});
-    return {.points = 5, .triangles = 10, .begun = triangles == 10};
+    return {.points = 5, .triangles = 10, .begun = triangles == 10, .seconds = seconds};
+  }
+  std::int64_t rest() override {
+    CHECK(slices == 0);
+    return 0;
   }
   [[nodiscard]] Bytes pack() const override { return Bytes(1); }
 
@@ -47,6 +62,7 @@ class Toy final : public Work {
   double remaining = 1;
   std::size_t backlog = 0;
   std::uint64_t packed_bytes = 100;
+  double seconds = 0;  ///< of a slice
 
  private:
   std::vector<SubdomainId>* worked_;
@@ -71,6 +87,44 @@ LoopPlan plan_of_toys(std::size_t count, WorkOrder order = WorkOrder::kGiven) {
   return plan;
 }
 
+/// Two ranks on the same plan, the first of which holds toys and asks a policy that moves nothing.
+struct TwoRanksOfToys {
+  explicit TwoRanksOfToys(std::size_t count) : plan(plan_of_toys(count)), toys(2) {
+    for (const SubdomainId id : ids_of(plan.owners)) toys[0_rank].put(Toy(id, 100, worked));
+    balancer::Layout layout;
+    layout.ranks = 2;
+    layout.subdomains.resize(count);
+    plan.layout = std::make_shared<const balancer::Layout>(layout);
+    plan.policy = balancer::leader_policy([this](const balancer::LoadSnapshot& load) {
+      plans.push_back(load);
+      return std::vector<balancer::Move>{};
+    });
+    plan.balancing.options.gap = 0;
+    plan.balancing.options.worth.gain = 0;
+  }
+  [[nodiscard]] Toy& toy(std::int32_t i) { return dynamic_cast<Toy&>(*toys[0_rank].find(SubdomainId{i})); }
+  /// The seconds of the first rank.
+  RankTimes run(const CostModel& costs = {}, const RankLoop::Observers& observers = {}) {
+    protocol::VirtualNetwork network({IdVector<Rank, double>(2, 1.0), {}, 1e-6, 1e-6});
+    std::vector<std::unique_ptr<RankLoop>> loops;
+    IdVector<Rank, protocol::RankStep> steps;
+    Apart apart;
+    for (const Rank r : first_ids<Rank>(2)) {
+      loops.push_back(std::make_unique<RankLoop>(network.transport(r), plan, toys[r], apart, costs, observers));
+      steps.push_back([l = loops.back().get()] { return l->step(); });
+    }
+    transport = &network.transport(0_rank);
+    REQUIRE(network.run(steps).end == protocol::RunEnd::kFinished);
+    return loops[0]->times();
+  }
+
+  LoopPlan plan;
+  std::vector<SubdomainId> worked;
+  IdVector<Rank, Toys> toys;
+  std::vector<balancer::LoadSnapshot> plans;  ///< what the policy was shown
+  protocol::Transport* transport = nullptr;   ///< that of the first rank
+};
+
 }  // namespace
 
 TEST_CASE("work is done in the order of the plan, what was begun first, and what is done is not worked on again") {
@@ -88,7 +142,11 @@ TEST_CASE("work is done in the order of the plan, what was begun first, and what
     protocol::VirtualNetwork network({IdVector<Rank, double>(1, 1.0), {}});
     Apart apart;
     RankLoop loop(network.transport(0_rank), plan, toys, apart);
-    const IdVector<Rank, protocol::RankStep> steps{[&] { return loop.step(); }};
+    const IdVector<Rank, protocol::RankStep> steps{[&] {
+      const protocol::StepResult result = loop.step();
+      CHECK_FALSE(loop.can_abandon());  // nothing was thrown
+      return result;
+    }};
     REQUIRE(network.run(steps).end == protocol::RunEnd::kFinished);
     CHECK(loop.triangles() == 5 * slices * 10);
     CHECK(loop.interface_splits() == 5 * slices);
@@ -141,5 +199,98 @@ TEST_CASE("what a crew still works on when the run is given up counts no more") 
     CHECK(loop.triangles() == triangles);
     CHECK(loop.interface_splits() == splits);
     CHECK_FALSE(loop.at_work());
+  }
+}
+
+TEST_CASE("what an observer waits for makes its rank slow") {
+  TwoRanksOfToys ranks(4);
+  for (int i = 0; i < 4; ++i) ranks.toy(i).seconds = 1e-3;
+  RankLoop::Observers observers;
+  observers.after_slice = [&](const RankLoop&, const RankLoop::Slice& slice) {
+    CHECK(slice.seconds == doctest::Approx(1e-3));
+    ranks.transport->spend(1);
+  };
+  ranks.run({}, observers);
+  double fastest = 0;
+  for (const balancer::LoadSnapshot& load : ranks.plans) fastest = std::max(fastest, load.ranks[0_rank].speed);
+  CHECK(fastest > 0);
+  CHECK(fastest < 1000);
+}
+
+TEST_CASE("points that wait to be inserted are work") {
+  TwoRanksOfToys ranks(2);
+  ranks.toy(1).backlog = 5000;
+  ranks.run();
+  bool seen = false;
+  for (const balancer::LoadSnapshot& load : ranks.plans)
+    for (const balancer::SubdomainLoad& s : load.subdomains)
+      if (s.id == 1_sub) {
+        seen = true;
+        CHECK(s.remaining >= 5001);
+      }
+  CHECK(seen);
+}
+
+TEST_CASE("a rank looks at its load less often where looking takes long") {
+  const auto share_of_looking = [](double listed) {
+    TwoRanksOfToys ranks(20);
+    for (int i = 0; i < 20; ++i) ranks.toy(i).seconds = 1e-3;
+    CostModel costs;
+    costs.listed = listed;
+    const RankTimes times = ranks.run(costs);
+    return times.balancing / (times.balancing + times.computing);
+  };
+  CHECK(share_of_looking(1e-6) < 0.05);
+  CHECK(share_of_looking(1e-3) < 0.05);
+}
+
+TEST_CASE("a rank plans less often where planning takes long") {
+  const auto run = [](double factor) {
+    TwoRanksOfToys ranks(20);
+    ranks.plan.balancing.options.overhead = 0.002;
+    for (int i = 0; i < 20; ++i) ranks.toy(i).seconds = 1e-2;
+    CostModel costs;
+    for (auto& [kind, seconds] : costs.planning.unit) seconds *= factor;
+    const RankTimes times = ranks.run(costs);
+    return std::pair(ranks.plans.size(), times.balancing / (times.balancing + times.computing));
+  };
+  const auto [often, little] = run(1);
+  const auto [seldom, share] = run(1e4);
+  CHECK(little < 0.004);
+  CHECK(share < 0.004);
+  CHECK(seldom < often);
+}
+
+TEST_CASE("each thread of a crew has its place, and says how long a shift took") {
+  struct Slow final : Work {
+    explicit Slow(SubdomainId id) : Work(id) {}
+    [[nodiscard]] WorkState state() const override { return {.active = true}; }
+    void tell(std::span<const SplitPoint<GlobalRootId>>) override {}
+    SliceWork work(std::int64_t, std::vector<SplitPoint<GlobalRootId>>&) override {
+      place = thread_place();
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      return {};
+    }
+    [[nodiscard]] Bytes pack() const override { return {}; }
+    std::size_t place = 0;
+  };
+  std::vector<Slow> works;
+  for (int i = 0; i < 6; ++i) works.emplace_back(SubdomainId{i});
+  std::vector<Shift> shifts(works.size());
+  ThreadCrew crew(2);
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    shifts[i].work = &works[i];
+    crew.start(shifts[i]);
+  }
+  std::set<Shift*> finished;
+  while (finished.size() < shifts.size()) {
+    crew.wait();
+    while (Shift* const shift = crew.finished()) CHECK(finished.insert(shift).second);
+  }
+  CHECK(thread_place() == 0);
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    CHECK(shifts[i].seconds >= 5e-3);
+    CHECK(works[i].place >= 1);
+    CHECK(works[i].place <= 2);
   }
 }
