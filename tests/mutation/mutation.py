@@ -9,6 +9,7 @@ notice (with --changed or --line: all), 1 if not, and 2 if something is wrong wi
 """
 
 import argparse
+import ast
 import collections
 import concurrent.futures
 import itertools
@@ -38,7 +39,7 @@ from table import Table, percent  # noqa: E402
 COPY = ROOT / "build/mutation"
 BUILD = COPY / "build/ci"  # where it would lie beside the sources: a compiler cache then knows what no fault has changed
 PLACES = 1 << 16
-FOLDERS = ["unit", "property", "protocol", "regression", "sim", "mutants", "cli", "digests", "c", "mpi"]
+FOLDERS = ["unit", "property", "protocol", "regression", "sim", "mutants", "cli", "digests", "c", "mpi", "python"]
 BYTES = 4 << 30
 PAGE = """# Results: do the tests notice?
 
@@ -138,7 +139,7 @@ def build(jobs):
     with (COPY / "build.log").open("w") as log:
         run("cmake", "--preset", "ci", "-Wno-dev")
         programs = {str(pathlib.Path(p).relative_to(BUILD)) for test in tests_of_ctest() for p in test["command"] if p.startswith(f"{BUILD}/")}
-        folders = [f"tests/{name}/all" for name in FOLDERS]  # ctest tells no command whose program is not there yet
+        folders = [f"tests/{name}/all" for name in FOLDERS] + ["python/all"]  # ctest tells no command whose program is not there yet
         run("nice", "-n", "5", "ninja", "-k", "0", "-C", str(BUILD), "-j", str(jobs), *folders, *sorted(programs))
 
 
@@ -161,6 +162,15 @@ def cases_of(program, environment):
     return [(case.get("name"), case.get("filename")) for case in xml.etree.ElementTree.fromstring(listed).iter("TestCase")]
 
 
+def methods_of(command):
+    """The methods of a script of unittest, 'Class.method', if that is what a test runs."""
+    scripts = [part for part in command[1:2] if part.endswith("_test.py")]
+    if not scripts:
+        return []
+    classes = [node for node in ast.parse(pathlib.Path(scripts[0]).read_text()).body if isinstance(node, ast.ClassDef) and node.name in (command[3:] or [node.name])]
+    return [f"{c.name}.{m.name}" for c in classes for m in c.body if isinstance(m, ast.FunctionDef) and m.name.startswith("test")]
+
+
 def units():
     found = {}
     for test in tests_of_ctest():
@@ -175,6 +185,10 @@ def units():
                 name = f"{pathlib.Path(file).stem}: {case}"
                 filters = [f"--test-case={case.replace(',', '?')}", f"--source-file=*{pathlib.Path(file).name}", "--abort-after=1"]
                 found[name] = Unit(name, [command[0], *filters], test["environment"], test["folder"], True, is_case=True)
+        elif methods := methods_of(command):
+            for method in methods:
+                name = f"{test['name']}: {method}"
+                found[name] = Unit(name, [*command[:3], method], test["environment"], test["folder"], False)
         else:
             found[test["name"]] = Unit(test["name"], command, test["environment"], test["folder"], "--source-file" in " ".join(command))
     return found

@@ -165,6 +165,7 @@ TEST_CASE("noise explains small gains, and little of large ones") {
   CHECK(gain_beyond(0, 0.5) == 0.5);
   CHECK(gain_beyond(1, 0.9) == 0);
   CHECK(gain_beyond(1, 1.4) == 0);
+  CHECK(gain_beyond(1, -100) == 0);
   CHECK(gain_beyond(1, 100) == doctest::Approx(99).epsilon(0.01));
 }
 

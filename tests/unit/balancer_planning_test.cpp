@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "balancer/cost/move_cost.hpp"
+#include "balancer/trigger/outlook.hpp"
 #include "controller_fixture.hpp"
 
 using namespace driftmesh;
@@ -154,6 +155,15 @@ TEST_CASE("one rank at work makes no noise, and a rank without memory is not idl
   s.ranks[1_rank].free_memory = 1;
   be_sure_of_idle_ranks(s);
   CHECK(s.ranks[0_rank].doubt == 0);
+}
+
+TEST_CASE("a rank that can be given nothing does not run out of work") {
+  LoadSnapshot s = initial_snapshot(grid_layout(30, 1, 3), {100, 100, 100});
+  for (SubdomainLoad& load : s.subdomains) load.owner = load.id < 20_sub ? 0_rank : 2_rank;
+  sum_up(s);  // the second has nothing, the third half as much as the first
+  CHECK(outlook(s, {}, 0, 1) == Verdict::kDone);
+  s.ranks[1_rank].free_memory = 0;
+  CHECK(outlook(s, {}, 0, 1) == Verdict::kTooEarly);
 }
 
 TEST_CASE("what is finished before it would have moved is fixed, and a plan must save what is required") {

@@ -47,10 +47,11 @@ class SlowPlans final : public Policy {
 
 /// What a policy is asked in ten looks, a second apart, at a rank with all the work and one with none: at least 5 s can
 /// be gained.
-SlowPlans::Asked asked_in_ten_looks(double expected, double taken, bool has_moves = true) {
+SlowPlans::Asked asked_in_ten_looks(double expected, double taken, bool has_moves = true, double overhead = 0.01) {
   SlowPlans::Asked asked;
   ControllerOptions options;
   options.reference_speed = 100;  // as fast as these ranks
+  options.overhead = overhead;
   Controller leader(0_rank, std::make_shared<Layout>(grid_layout(40, 1, 2)),
                     std::make_shared<SlowPlans>(expected, has_moves, asked), options, 0);
   for (int i = 1; i <= 10; ++i) {
@@ -72,6 +73,9 @@ TEST_CASE("a plan that would take longer than it gains is not made, and single m
   const SlowPlans::Asked unexpected = asked_in_ten_looks(1e-3, 11);  // it is known after the first
   CHECK(unexpected.plans == 1);
   CHECK(unexpected.touch_ups == 10);
+  CHECK(asked_in_ten_looks(2, 2).plans == 0);              // less than it gains, but more than an eighth of the time
+  CHECK(asked_in_ten_looks(1e-3, 2, true, 1).plans == 1);  // which is known after the first
+  CHECK(asked_in_ten_looks(1e-3, 1e-3, true, 1).plans == 10);
   const SlowPlans::Asked seldom = asked_in_ten_looks(0.04, 0.04);  // a hundredth of the time, so every fourth second
   CHECK(seldom.plans == 3);
   CHECK(seldom.touch_ups == 10);

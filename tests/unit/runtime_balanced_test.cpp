@@ -1,6 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <bit>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -8,10 +7,10 @@
 #include <vector>
 
 #include "balancer/policies/policy_factory.hpp"
-#include "base/mix.hpp"
 #include "protocol/virtual_network.hpp"
 #include "runtime_fixture.hpp"
 #include "support/simulated_crew.hpp"
+#include "support/value_digest.hpp"
 
 // Balanced runs in virtual time, to the last bit: what ranks measure, report, plan and move decides each of them.
 // Tables of balancing are made of such runs.
@@ -28,17 +27,6 @@ struct BalancedCase {
   std::size_t crew = 0;                    ///< threads that help each rank
   std::int64_t max_triangles = INT64_MAX;  ///< on each rank
   bool on_one_rank = false;                ///< at the start
-};
-
-class Digest {
- public:
-  void add(std::uint64_t value) { value_ = mix(value_ + kMixStep + value); }
-  void add(std::int64_t value) { add(static_cast<std::uint64_t>(value)); }
-  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
-  [[nodiscard]] std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0;
 };
 
 /// Of all times, counts and owners of a run.
@@ -61,7 +49,7 @@ std::uint64_t digest_of_run(const BalancedCase& c, const std::string& policy, st
   for (const auto& loop : run.loops)
     if (c.crew > 0) loop->hire(*crews.emplace_back(std::make_unique<SimulatedCrew>(c.crew, crews.size() + 1)));
   REQUIRE(network.run(run.steps).end == protocol::RunEnd::kFinished);
-  Digest digest;
+  ValueDigest digest;
   for (const Rank r : ids_of(run.loops)) {
     const RankOutcome outcome = run.loops[r]->outcome();
     for (const double seconds : {network.clock(r), outcome.times.computing, outcome.times.sending,

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+#include "base/mix.hpp"
+
+namespace driftmesh::testing {
+
+/// Values in their order, to the last bit, as one number.
+class ValueDigest {
+ public:
+  void add(std::uint64_t value) { value_ = mix(value_ + kMixStep + value); }
+  void add(std::int64_t value) { add(static_cast<std::uint64_t>(value)); }
+  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+  [[nodiscard]] std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0;
+};
+
+}  // namespace driftmesh::testing

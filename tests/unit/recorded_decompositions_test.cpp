@@ -1,0 +1,184 @@
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iomanip>
+#include <sstream>
+#include <string>
+
+#include "decompose/check_decomposition.hpp"
+#include "decompose/decompose.hpp"
+#include "decompose/presplit.hpp"
+#include "driftmesh/error.hpp"
+#include "driftmesh/generate.hpp"
+#include "driftmesh/size_field.hpp"
+#include "oracles/random_pslg.hpp"
+#include "support/prepared_mesh.hpp"
+#include "support/value_digest.hpp"
+
+// Decompositions of many kinds of domains, to the last bit. All ranks of a run compute their own, whatever their
+// hardware, and saved runs go on with them: what changes one changes all meshes that are made in subdomains.
+
+using namespace driftmesh;
+using namespace driftmesh::testing;
+
+namespace {
+
+class Ring final : public SizeField {
+ public:
+  [[nodiscard]] double edge_length(const Point& p) const override {
+    return 0.01 + 0.2 * std::abs(std::hypot(p.x, p.y) - 0.5);
+  }
+};
+
+void append(Pslg& whole, const Pslg& part, double offset) {
+  const auto first = static_cast<std::int32_t>(whole.points.size());
+  for (const Point& p : part.points) whole.points.push_back({p.x + offset, p.y});
+  for (const Pslg::Segment& s : part.segments) whole.segments.push_back({s.a + first, s.b + first, s.marker});
+  for (const Point& p : part.holes) whole.holes.push_back({p.x + offset, p.y});
+  for (Pslg::Region region : part.regions) {
+    region.at.x += offset;
+    whole.regions.push_back(region);
+  }
+}
+
+Pslg random_domain(std::uint64_t seed, int holes = 0) {
+  oracles::RandomPslgShape shape = oracles::make_random_shape(seed);
+  shape.scale = 1;
+  shape.offset = 0;
+  shape.holes += holes;
+  Pslg domain = oracles::make_random_pslg(seed, shape).input;
+  for (std::size_t k = 0; k < domain.regions.size(); ++k)
+    domain.regions[k].max_area = 1e-3 / static_cast<double>(1 + (seed + k) % 5);
+  return domain;
+}
+
+Pslg domain_of(std::uint64_t seed) {
+  switch (seed % 6) {
+    case 0: {  // several parts, more than there are subdomains or fewer
+      Pslg parts;
+      for (std::uint64_t k = 0; k < 2 + seed % 7; ++k)
+        append(parts, random_domain(100 * seed + k), 4.0 * static_cast<double>(k));
+      return parts;
+    }
+    case 1:
+      return generate_holes({.columns = 3, .rows = 2});
+    case 2: {
+      BayOptions bay;
+      bay.resolution = 1500;
+      bay.seed = seed;
+      return generate_bay(bay);
+    }
+    case 3:
+      return generate_comb({});
+    case 4:
+      return random_domain(seed, 9);
+    default:
+      return random_domain(seed);
+  }
+}
+
+std::uint64_t digest_of(const Decomposition& d, const QualityBounds& bounds) {
+  ValueDigest digest;
+  for (const GlobalPointId v : ids_of(d.points)) {
+    digest.add(d.points[v].x);
+    digest.add(d.points[v].y);
+    digest.add(std::int64_t{d.origin[v]});
+  }
+  for (const GlobalRootId r : ids_of(d.roots)) {
+    const Decomposition::Root& root = d.roots[r];
+    for (const std::int32_t value :
+         {to_int(root.a), to_int(root.b), root.marker, root.shell, to_int(root.left), to_int(root.right),
+          std::int32_t{root.left_region}, std::int32_t{root.right_region}, std::int32_t{root.separator}})
+      digest.add(std::int64_t{value});
+    for (const dyadic::Path path : presplit_paths(d, r, bounds)) digest.add(std::uint64_t{path});
+  }
+  for (const Decomposition::Subdomain& s : d.subdomains) {
+    for (const double value : {s.area, s.predicted, s.centroid.x, s.centroid.y}) digest.add(value);
+    digest.add(std::int64_t{s.region});
+  }
+  for (const std::int32_t begin : d.root_begin) digest.add(std::int64_t{begin});
+  for (const GlobalRootId r : d.root_list) digest.add(std::int64_t{to_int(r)});
+  for (const std::int32_t begin : d.point_begin) digest.add(std::int64_t{begin});
+  for (const GlobalPointId v : d.point_list) digest.add(std::int64_t{to_int(v)});
+  return digest.value();
+}
+
+/// Of the decomposition that a case gives, or of none where the domain cannot be cut like that.
+std::uint64_t digest_of_case(std::uint64_t seed, std::size_t& subdomains) {
+  const Ring ring;
+  const Pslg input = domain_of(seed);
+  const Triangulation mesh = prepared(input);
+  const Box box = Box::of(input.points);
+  DecomposeOptions options;
+  options.subdomains = static_cast<std::int32_t>(1 + seed * seed % 37);
+  if (seed % 3 == 0) options.bounds.plain.area = (box.high.x - box.low.x) * (box.high.y - box.low.y) / 1e5;
+  if (seed % 3 == 1) options.bounds.region_max_area = areas_by_region(input);
+  if (seed % 5 == 0) options.bounds.size = &ring;
+  if (seed % 2 == 0) options.bounds.min_angle = 20;
+  if (seed % 7 == 0) options.skew = 0.5;
+  options.seed = seed;
+  options.whole_segments = seed % 8 == 1;
+  try {
+    const Decomposition d = decompose(mesh, options);
+    CHECK(check_decomposition(d).valid());
+    subdomains += d.size();
+    return digest_of(d, options.bounds);
+  } catch (const Error&) {
+    return 0;
+  }
+}
+
+constexpr std::array<std::uint64_t, 160> kRecorded{
+    0x70f566b3f359f8e3, 0xdab5aede4280031c, 0x99fb80f7906dac3a, 0x91e626c5f85fcce9, 0x60306dbb3f7bdea6,
+    0xdf7c3a275a192121, 0x9731f935ebd35b5f, 0x60ec5c8d16220232, 0x7539c4ef25434897, 0xd13224dbd26b8d7d,
+    0x54b1088468105f8a, 0x2fe3e9749d972edd, 0x514787f402f196ee, 0x6cee268ce8c5d3e0, 0xd1cb3ed7af6fa428,
+    0xb621329faa84c5ff, 0xb41273f15c112c06, 0x3e2cf2e5a608b3d5, 0x2c51b32f683581e8, 0x1927045dd4cb2c4b,
+    0x66a10766ca5b7d98, 0xbedea2a66712c526, 0x83b45ab54741904b, 0xd93b8bc9f2d67955, 0x7cd90e75bb5ec450,
+    0xa875f4e25127ed15, 0x03a202d358644e3c, 0xc0f39b96a80bdea2, 0x7cbc2d61f102f460, 0x3f5b48b8860a20cb,
+    0xdcde9d13c97831f1, 0x19b128cada6c62b7, 0x578d9865e0877cb1, 0xc7cec42f0ec55342, 0x5be52bac8eb619b1,
+    0xa0b0c12262068615, 0x30ad237ebd29dcf6, 0x2e3f5b3d966482f0, 0xcd0274ec957fb335, 0x323a67dd29068bd5,
+    0x1a85a223b8e22b1f, 0x7bd97ff49f83d79e, 0xdcde9d13c97831f1, 0x1fc35bc384241955, 0x3a82dc0b79e78bc9,
+    0xfee8ac6d0a6cbc8f, 0x89089d0ca384b5e2, 0x23fe2ef65f7931cc, 0x61f6717b8fbeb3f2, 0x3fa2aae9ed004940,
+    0x177be655b3cabb45, 0x7a4760ce999c5bcd, 0xb8e8ef1f36e60403, 0xd532596f38ad324d, 0xc9099fd81f5f4730,
+    0x8bd79c0b15b5a7c4, 0xec5b16ddc7b2a7b3, 0x7b2c7c91b162a572, 0x2a06aac7a73b44d7, 0x66ee1773aaf99081,
+    0x514787f402f196ee, 0x6f40b1e73aa52715, 0xead726ffd72c9899, 0x7ddb3fa570e7aa2b, 0xc931cc452003de07,
+    0xd9deb2ba3404a945, 0x51e2515e098cfcd7, 0xffc3b5b70d567fb2, 0x772b85b7be728ea2, 0x196827ebd986cc07,
+    0x8afac33d3ebc2a97, 0xb69bc932a4b24a4f, 0x70f566b3f359f8e3, 0xad25c67b660e4881, 0xa6988999ca11f345,
+    0xb6e1e161a29a86f9, 0x0010bf9a5558f0cf, 0xdda76c4c2d70d890, 0x10e7937e096bea94, 0x020808bc1f8fab53,
+    0xb3838f370d1255db, 0x9c77206be8218efc, 0xfd1fe4e63b47e73e, 0xed4e1ce8003839fc, 0x45c9a62c3de64ef6,
+    0xac7addf7388b8514, 0x4a3479322b527f0a, 0xbef8c957f83ea0d9, 0x77d74b42209be6af, 0x8df752e40632757b,
+    0xba9b3fe8336309fb, 0x877f5536d23dfc37, 0x714f15f5fcd6d308, 0xf77cab06fdec8c5c, 0x064de363381530a9,
+    0x4470c3d48e813375, 0xb6604edf432ad492, 0x4ca25d8c7853b2db, 0xac4fc3c59c7193cf, 0x3fec0e2072622628,
+    0xef71e9e0247e3bb4, 0xfe4679b54b39d098, 0x3ed8b2e2bae06109, 0x4d65ca4aa76a1c01, 0xadb57208b8050ece,
+    0xed263e9638ac5ce8, 0x466d0207ac84e796, 0xccb151dc4857eeab, 0x553279682daca107, 0x800b7d2c90b79d52,
+    0xf74fb7be43ba5a7f, 0x2ed5078662131eb8, 0x3c3be2a47c92c974, 0x85dd73f24283d000, 0xc6ffb5a325a24ee1,
+    0x02168df450793e72, 0x3ccb38cc35b6c643, 0x7dd2d684c2810ba2, 0x1666fd38da1c333e, 0xadba1a90ee963f2f,
+    0xb94b0472c7840995, 0xa1ca1ee16fe17655, 0xac4fc3c59c7193cf, 0x55d7872bb456b303, 0xb809ef3f18fcea85,
+    0x27e774ade9cda9d9, 0x79eed97772f5d7ce, 0x0bcfebc0dee5062f, 0xc72921439101e3c9, 0xc67f6da08778fd00,
+    0xe96459ba8a0f9685, 0x9438bdb0f0fc79cd, 0xc7804fa9762bfae5, 0xcb535f3ccd5c96d1, 0xa7a9b72541da2669,
+    0x9bb01694df161c5f, 0x0187e06b5af5bea1, 0x638a90cfff383618, 0x9dfd435d2a2dcc4a, 0x273924cb6100cebf,
+    0xd99c57e7f023b62e, 0x8d475ca7a7f107a9, 0x75c4f311c06986c5, 0xbe6fca236635da71, 0xe45623a6ea1e5118,
+    0xebd1f987e4730f28, 0xb926f59552b902d2, 0xeaf040a136cdd7c1, 0xceee5f4bc41b01a8, 0x777c73107d63dae2,
+    0x019aeae7702036dc, 0xa26e7c78d5a0ba35, 0x63e7daf7655c0a20, 0xb9adc9fe67f05559, 0x533a4330a4481130,
+    0x46168a9761faf172, 0x9dfd435d2a2dcc4a, 0x0ca8b85ef41847cb, 0x1f02f27d5024ff57, 0xc7576f391d2eee38};
+
+}  // namespace
+
+#ifndef _LIBCPP_VERSION  // whose random numbers are others
+TEST_CASE("decompositions are those that were recorded") {
+  std::size_t subdomains = 0, cut = 0;
+  std::ostringstream all;
+  for (std::size_t i = 0; i < kRecorded.size(); ++i) {
+    const std::uint64_t digest = digest_of_case(i + 1, subdomains);
+    CHECK_MESSAGE(digest == kRecorded[i], "case " << i + 1);
+    cut += digest != 0;
+    all << "0x" << std::hex << std::setfill('0') << std::setw(16) << digest << ", ";
+  }
+  INFO(all.str());
+  CHECK(cut > 140);
+  CHECK(subdomains > 1000);
+}
+#endif
