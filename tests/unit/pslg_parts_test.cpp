@@ -1,26 +1,34 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <fstream>
 #include <string>
 #include <unordered_set>
 #include <utility>
 #include <vector>
 
+#include "driftmesh/error.hpp"
 #include "driftmesh/id_vector.hpp"
+#include "driftmesh/repair.hpp"
 #include "geometry/predicates.hpp"
 #include "pslg/closeness.hpp"
 #include "pslg/enclosing_ring.hpp"
 #include "pslg/names.hpp"
 #include "pslg/open_boundary.hpp"
 #include "pslg/pair_key.hpp"
+#include "pslg/poly_file.hpp"
 #include "pslg/polygons.hpp"
 #include "pslg/polylines.hpp"
+#include "support/error_text.hpp"
+#include "temporary_folder.hpp"
 
 // Parts of what repairs and reads domains, each by itself.
 
 using namespace driftmesh;
+using driftmesh::testing::error_text;
 
 namespace {
 
@@ -170,4 +178,34 @@ TEST_CASE("a name is that of one marker or of one region") {
   add_marker_name(names, 3, "basin");
   CHECK(names.markers.size() == 1);
   CHECK(names.regions.size() == 1);
+}
+
+TEST_CASE("seeds are coordinates that an input can have, and snapping is by a length") {
+  Pslg pslg;
+  add_ring(pslg, {{0, 0}, {4, 0}, {4, 4}, {0, 4}});
+  add_ring(pslg, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}});
+  pslg.holes = {{0x1.8p-180, -0.5}};
+  pslg.regions = {{{-0.5, 0x1p-180}, 1, 0}};
+  Pslg again = pslg;
+  repair(pslg);
+  CHECK(in_coordinate_range(pslg.holes[0].x));
+  CHECK(in_coordinate_range(pslg.regions[0].at.y));
+  for (const double snap : {-1.0, -1e-300, HUGE_VAL, std::nan("")})
+    CHECK_THROWS_AS(repair(again, "input", {.snap = snap}), Error);
+}
+
+TEST_CASE("a domain is read from its own files, and other files are refused by their kind") {
+  const TemporaryFolder folder;
+  const auto written = [&](const char* name, const char* text) {
+    const std::string path = folder.path() / name;
+    std::ofstream(path) << text;
+    return path;
+  };
+  const std::string poly = written("a.poly", "0 2 0 0\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n");
+  CHECK(poly_files(poly) == std::vector<std::string>{poly});
+  const std::string node = written("a.node", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n");
+  CHECK(poly_files(poly) == std::vector<std::string>{poly, node});
+  CHECK(read_poly(poly).points.size() == 3);
+  CHECK(error_text([&] { (void)read_poly(written("b.poly", "$MeshFormat\n4.1 0 8\n")); }).find("and not a domain") !=
+        std::string::npos);
 }

@@ -1,9 +1,14 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <fstream>
 #include <limits>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "driftmesh/error.hpp"
@@ -11,6 +16,9 @@
 #include "raster/ascii_grid.hpp"
 #include "raster/nearest_values.hpp"
 #include "raster/open_raster.hpp"
+#include "raster/raster_stack.hpp"
+#include "raster/read_tiles.hpp"
+#include "raster/resample.hpp"
 #include "support/error_text.hpp"
 #include "temporary_folder.hpp"
 
@@ -197,5 +205,66 @@ TEST_CASE("a raster in degrees is resampled to the domain's zone") {
         worst = std::max(worst, std::abs(opened.raster->at(utm(longitude, latitude, zone)) - expected));
       }
     CHECK(worst < 0.01 * 5 * kStep);  // a hundredth of the raster's spacing
+  }
+}
+
+namespace {
+
+std::shared_ptr<const Raster> plain(double value) {
+  TiledGrid grid(RasterFrame{2, 2, {0, 0}, 1, 1});
+  for (std::int64_t j = 0; j < 2; ++j)
+    for (std::int64_t i = 0; i < 2; ++i) grid.set(i, j, static_cast<float>(value));
+  return std::make_shared<const GridRaster>(std::move(grid));
+}
+
+}  // namespace
+
+TEST_CASE("a layer of a stack counts by its share of what those above leave") {
+  const Box all{{-9, -9}, {9, 9}};
+  const RasterStack stack({{plain(8), plain(0.5), all}, {plain(4), plain(0.25), all}, {plain(2), nullptr, {}}});
+  CHECK(stack.at({1, 1}) == 5.25);
+  CHECK(stack.over({{0.5, 0.5}, {3, 3}}).low == doctest::Approx(5.25));
+  CHECK(stack.over({{0.5, 0.5}, {3, 3}}).high == doctest::Approx(5.25));
+}
+
+TEST_CASE("where several tiles have a value, that of the first counts") {
+  const TemporaryFolder folder;
+  const auto tile = [&](const char* name, double left, const char* values) {
+    const std::string path = folder.path() / name;
+    std::ofstream(path) << "ncols 3\nnrows 1\nxllcenter " << left << "\nyllcenter 0\ncellsize 1\nnodata_value -1\n"
+                        << values;
+    return RasterTile{path, {3, 1, {left, 0}, 1, 1}};
+  };
+  const std::vector<RasterTile> tiles{tile("a.asc", 0, "1 2 -1\n"), tile("b.asc", 1, "20 30 40\n")};
+  const RasterFrame around{4, 1, {0, 0}, 1, 1};
+  for (const std::size_t threads : {1, 2}) {
+    const TiledGrid grid = read_tiles(tiles, around, {0, 0, around}, threads);
+    std::vector<float> values;
+    for (std::int64_t i = 0; i < 4; ++i) values.push_back(grid.at(i, 0));
+    CHECK(values == std::vector<float>{1, 2, 30, 40});
+  }
+}
+
+TEST_CASE("a grid in other coordinates covers its box, as finely as the raster in either direction") {
+  TiledGrid source(RasterFrame{40, 40, {0, 0}, 1, 1});
+  for (std::int64_t j = 0; j < 40; ++j)
+    for (std::int64_t i = 0; i < 40; ++i) source.set(i, j, static_cast<float>(i + j));
+  const GridRaster raster(std::move(source));
+  const Box box{{1.3, 1.3}, {8.7, 8.7}};
+  for (const std::pair<double, double>& by : {std::pair(1.0, 1.0), std::pair(4.0, 1.0), std::pair(1.0, 4.0)}) {
+    const TiledGrid grid = resample(
+        raster,
+        [&](const Point& p) {
+          return Point{by.first * p.x, by.second * p.y};
+        },
+        box);
+    const RasterFrame& frame = grid.frame();
+    CHECK(frame.dx <= 1 / std::max(by.first, by.second));
+    CHECK(frame.dx >= 0.5 / std::max(by.first, by.second));
+    CHECK(frame.dy == frame.dx);
+    CHECK(frame.first.x <= box.low.x);
+    CHECK(frame.first.y <= box.low.y);
+    CHECK(grid.point(frame.columns - 1, frame.rows - 1).x >= box.high.x);
+    CHECK(grid.point(frame.columns - 1, frame.rows - 1).y >= box.high.y);
   }
 }
