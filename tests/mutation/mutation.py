@@ -163,12 +163,14 @@ def cases_of(program, environment):
 
 
 def methods_of(command):
-    """The methods of a script of unittest, 'Class.method', if that is what a test runs."""
+    """The methods of a script of unittest, 'Class.method', if that is what a test runs, and the command without a class."""
     scripts = [part for part in command[1:2] if part.endswith("_test.py")]
     if not scripts:
-        return []
-    classes = [node for node in ast.parse(pathlib.Path(scripts[0]).read_text()).body if isinstance(node, ast.ClassDef) and node.name in (command[3:] or [node.name])]
-    return [f"{c.name}.{m.name}" for c in classes for m in c.body if isinstance(m, ast.FunctionDef) and m.name.startswith("test")]
+        return [], command
+    classes = [node for node in ast.parse(pathlib.Path(scripts[0]).read_text()).body if isinstance(node, ast.ClassDef)]
+    classes = [c for c in classes if c.name in command] or classes
+    methods = [f"{c.name}.{m.name}" for c in classes for m in c.body if isinstance(m, ast.FunctionDef) and m.name.startswith("test")]
+    return methods, [part for part in command if part not in {c.name for c in classes}]
 
 
 def units():
@@ -185,10 +187,10 @@ def units():
                 name = f"{pathlib.Path(file).stem}: {case}"
                 filters = [f"--test-case={case.replace(',', '?')}", f"--source-file=*{pathlib.Path(file).name}", "--abort-after=1"]
                 found[name] = Unit(name, [command[0], *filters], test["environment"], test["folder"], True, is_case=True)
-        elif methods := methods_of(command):
-            for method in methods:
+        elif (methods := methods_of(command))[0]:
+            for method in methods[0]:
                 name = f"{test['name']}: {method}"
-                found[name] = Unit(name, [*command[:3], method], test["environment"], test["folder"], False)
+                found[name] = Unit(name, [*methods[1], method], test["environment"], test["folder"], False)
         else:
             found[test["name"]] = Unit(test["name"], command, test["environment"], test["folder"], "--source-file" in " ".join(command))
     return found
@@ -266,13 +268,15 @@ class Verdicts:
         return list(dict.fromkeys(([v.by] if v and v.noticed else []) + [name for name, _ in self.killers[fault.file].most_common(8)]))
 
 
-def try_fault(fault, usable, kept, budget):
+def try_fault(fault, usable, kept, options):
     passing = sorted((u for u in usable if fault.number % PLACES in u.places), key=lambda u: u.seconds)
     begin, tried = time.monotonic(), 0
     by_name = {u.name: u for u in passing}
     first = [by_name[name] for name in kept.likely_killers(fault) if name in by_name]
+    if options.first:
+        first = [u for u in passing if re.search(options.first, u.name) and u not in first] + first
     for some, unit in itertools.chain((([u], u) for u in first), batches([u for u in passing if u not in first])):
-        if time.monotonic() - begin > budget:
+        if time.monotonic() - begin > options.budget:
             return Verdict(fault, "survived", f"{len(passing) - tried} tests not tried", tried, time.monotonic() - begin)
         outcome, said = unit.run(10 + (10 if len(some) == 1 else 4) * unit.seconds, DRIFTMESH_FAULT=str(fault.number))
         tried += len(some)
@@ -333,6 +337,7 @@ def main():
     parser.add_argument("--line", action="append", metavar="FILE:LINE", help="only the fault that begins at this line of faults/, as messages name it")
     parser.add_argument("--left", action="store_true", help="only faults that were missed on this copy, or not tried yet")
     parser.add_argument("--tests", metavar="REGEX", default="", help="run only tests with such names, as in 'runtime_|subdomain_state' (default: all)")
+    parser.add_argument("--first", metavar="REGEX", default="", help="try tests with such names before others: new ones, as in 'recorded_'")
     parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count(), help="faults at a time (default: all cores)")
     parser.add_argument("--longest", type=float, default=20, metavar="SECONDS", help="leave out tests that take longer (default: 20)")
     parser.add_argument("--budget", type=float, default=120, metavar="SECONDS", help="give up on a fault after this time (default: 120)")
@@ -367,7 +372,7 @@ def main():
     kept = Verdicts(faults.read())
     todo = [f for f in some if not options.left or not (known := kept.of(f)) or not known.noticed]
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        jobs = [pool.submit(try_fault, f, usable, kept, options.budget) for f in todo]
+        jobs = [pool.submit(try_fault, f, usable, kept, options) for f in todo]
         for job in concurrent.futures.as_completed(jobs):
             v = job.result()
             kept.keep(v)

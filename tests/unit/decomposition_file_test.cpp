@@ -266,3 +266,41 @@ TEST_CASE("a shell piece that runs toward its corner is refused") {
   }
   CHECK(pieces > 10);
 }
+
+TEST_CASE("inputs that make other meshes have other digests") {
+  Pslg input = testing::varied_domain();
+  input.polygons.push_back({.rings = {{0, 1, 2, 3}}});
+  const std::int32_t digest = input_digest(input);
+  const auto changed = [&](const auto& change) {
+    Pslg other = input;
+    change(other);
+    return input_digest(other) != digest;
+  };
+  CHECK_FALSE(changed([](Pslg&) {}));
+  CHECK(changed([](Pslg& p) { p.points[2].y += 1e-9; }));
+  CHECK(changed([](Pslg& p) { p.segments[0].marker = 50; }));
+  CHECK(changed([](Pslg& p) { p.segments[3].b += 1; }));
+  CHECK(changed([](Pslg& p) { p.holes[0].x += 1e-9; }));
+  CHECK(changed([](Pslg& p) { p.holes.clear(); }));
+  CHECK(changed([](Pslg& p) { std::swap(p.polygons[0].rings[0][1], p.polygons[0].rings[0][2]); }));
+  CHECK(changed([](Pslg& p) { p.regions.clear(); }));
+}
+
+TEST_CASE("a file lists inner points once, and subdomains with their work") {
+  const std::string text = sample_text();
+  Decomposition d = sample();
+  REQUIRE(!d.point_list.empty());
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "twice";
+  std::size_t i = 0;  // a subdomain with an inner point
+  while (d.point_begin[i + 1] == d.point_begin[i]) ++i;
+  Decomposition twice = d;
+  twice.point_list.insert(twice.point_list.begin() + d.point_begin[i],
+                          d.point_list[static_cast<std::size_t>(d.point_begin[i])]);
+  for (std::size_t k = i + 1; k < twice.point_begin.size(); ++k) ++twice.point_begin[k];
+  write_decomposition(twice, testing::varied_domain(), path);
+  CHECK_THROWS_AS((void)read_decomposition(path, testing::varied_domain()), InputError);
+  d.subdomains[SubdomainId{1}].predicted = 0;
+  write_decomposition(d, testing::varied_domain(), path);
+  CHECK_THROWS_AS((void)read_decomposition(path, testing::varied_domain()), InputError);
+}

@@ -72,6 +72,36 @@ TEST_CASE("a fork keeps the angle, at its center and at the border") {
   }
 }
 
+TEST_CASE("a fork ends on three walls, and its parts are about even") {
+  for (const double width : {1.0, 2.0, 4.0}) {
+    CAPTURE(width);
+    const std::optional<Fork> fork =
+        find_fork(outline_of({{0, 0}, {width, 0}, {width, 1}, {0, 1}}, 0.05, 40 * kDegree), 40 * kDegree);
+    REQUIRE(fork);
+    std::array<double, 3> turn{};  // of the ends, from the first one on
+    std::array<int, 3> points{};   // of a grid, in each part
+    const auto direction = [&](const Point& p) {
+      const Point &first = fork->ends[0].at, &c = fork->center;
+      const double angle = std::atan2(p.y - c.y, p.x - c.x) - std::atan2(first.y - c.y, first.x - c.x);
+      return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+      turn[k] = direction(fork->ends[k].at);
+      CHECK(PlanarMap::wall_of(fork->ends[k].side) != PlanarMap::wall_of(fork->ends[(k + 1) % 3].side));
+    }
+    REQUIRE(turn[1] < turn[2]);
+    for (int i = 0; i < 100; ++i)
+      for (int j = 0; j < 100; ++j) {
+        const double at = direction({width * (i + 0.5) / 100, (j + 0.5) / 100});
+        ++points[at < turn[1] ? 0 : at < turn[2] ? 1 : 2];
+      }
+    for (const int count : points) {
+      CHECK(count > 2200);
+      CHECK(count < 4500);
+    }
+  }
+}
+
 TEST_CASE("what a fork does not meet keeps away from it") {
   std::mt19937_64 random(1);
   const auto unit = [&] { return std::uniform_real_distribution<double>(0, 1)(random); };
