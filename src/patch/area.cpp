@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -19,7 +18,8 @@ Corners corners_of(const Mesh& mesh, std::size_t t) {
   return {mesh.points[to_index(a)], mesh.points[to_index(b)], mesh.points[to_index(c)]};
 }
 
-/// Whether the line along an edge of `one`, a counterclockwise polygon, has all of `other` on its right.
+/// Whether the line along an edge of `one`, a counterclockwise polygon, or a segment there and back, has all of `other`
+/// on its right. The interiors have a point in common if none of either has.
 template <class One, class Other>
 bool is_apart(const One& one, const Other& other) {
   for (std::size_t i = 0; i < one.size(); ++i) {
@@ -32,13 +32,6 @@ bool is_apart(const One& one, const Other& other) {
 struct Side {
   Point a, b;
 };
-
-/// Whether segments have a point in common that is an end of neither.
-bool cross(const Side& s, const Point& p, const Point& q) {
-  const auto sign = [](double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; };
-  return sign(orient2d(s.a, s.b, p)) * sign(orient2d(s.a, s.b, q)) < 0 &&
-         sign(orient2d(p, q, s.a)) * sign(orient2d(p, q, s.b)) < 0;
-}
 
 /// An area, by its sides in stripes of equal height.
 class Stripes {
@@ -85,10 +78,8 @@ class Stripes {
   }
   /// Whether a part of the side is in the interior of the triangle.
   static bool enters(const Side& side, const Corners& t) {
-    const Point middle = midpoint(side.a, side.b);
-    for (const Point& p : {side.a, side.b, middle})
-      if (orient2d(t[0], t[1], p) > 0 && orient2d(t[1], t[2], p) > 0 && orient2d(t[2], t[0], p) > 0) return true;
-    return cross(side, t[0], t[1]) || cross(side, t[1], t[2]) || cross(side, t[2], t[0]);
+    const std::array<Point, 2> ends{side.a, side.b};
+    return !is_apart(t, ends) && !is_apart(ends, t);
   }
 
   std::vector<Side> sides_;

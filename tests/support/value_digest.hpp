@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <span>
 
 #include "base/mix.hpp"
 
@@ -13,6 +14,10 @@ class ValueDigest {
   void add(std::uint64_t value) { value_ = mix(value_ + kMixStep + value); }
   void add(std::int64_t value) { add(static_cast<std::uint64_t>(value)); }
   void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+  void add(std::span<const std::int32_t> values) {
+    add(std::uint64_t{values.size()});
+    for (const std::int32_t value : values) add(std::int64_t{value});
+  }
   [[nodiscard]] std::uint64_t value() const { return value_; }
 
  private:
