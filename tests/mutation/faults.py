@@ -106,7 +106,26 @@ def span_of(fault, source):
         raise BadFault(f"{fault.line}: {fault.right!r} ends as a statement does, but is not the whole of one")
     if not fault.anchors and find(fault.right, place[1]) is not None:
         raise BadFault(f"{fault.line}: {fault.file} has {fault.right!r} more than once; say behind what, by a line that begins with @")
+    if not is_statement(fault.right) and not is_whole(fault.right, source[:place[0]], source[place[1]:]):
+        raise BadFault(f"{fault.line}: {fault.right!r} is not the whole of an expression there")
     return place
+
+
+BINDS = {operator: rank for rank, level in enumerate(["? :", "||", "&&", "== !=", "< > <= >=", "+ -", "* / %"]) for operator in level.split()}
+
+
+def is_whole(text, before, behind):
+    """Whether an expression is the same in parentheses: no operator beside it binds more tightly than one within it. Operators stand between blanks."""
+    depth, loosest = 0, len(BINDS)
+    for word in re.findall(r"[()\[\]{}]|(?<=\s)(?:[|&=!<>]=?=?|\|\||&&|[-+*/%?:])(?=\s)", " " + text + " "):
+        depth += (word in "([{") - (word in ")]}")
+        if depth == 0 and word in BINDS:
+            loosest = min(loosest, BINDS[word])
+    left = re.search(r"\s(\|\||&&|[=!<>]=|[-+*/%<>])\s+$", before)
+    right = re.match(r"\s+(\|\||&&|[=!<>]=|[-+*/%<>?])\s", behind)
+    negated = re.search(r"[(\s]!$", before) is not None
+    associates = left and left[1] in ("||", "&&")
+    return (not left or BINDS[left[1]] < loosest or (associates and BINDS[left[1]] == loosest)) and (not right or BINDS[right[1]] <= loosest) and (not negated or loosest == len(BINDS))
 
 
 def may_begin_statement(before):

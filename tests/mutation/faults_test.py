@@ -55,6 +55,14 @@ int main() { std::printf("%d %d %d %d", twice(-3), twice(0), twice(4), thrice(2)
 
 
 class Faults(unittest.TestCase):
+    def test_what_is_replaced_is_the_whole_of_an_expression(self):
+        for text, before, behind, whole in [("a || b", "if (", ")", True), ("a || b", "if (", " != c)", False), ("a || b", "if (c || ", ")", True),
+                                            ("a || b", "if (c && ", ")", False), ("a && b", "if (c || ", ")", True), ("a == b", "if (!", ")", False),
+                                            ("f(a || b)", "if (!", " && c)", True), ("b - c", "x = a - ", ";", False), ("b * c", "x = a - ", ";", True),
+                                            ("a ? b : c", "f(", ", d)", True), ("a ? b : c", "f(1 + ", ")", False)]:
+            with self.subTest(text=text, before=before, behind=behind):
+                self.assertEqual(faults.is_whole(text, before, behind), whole)
+
     def test_data_matches_the_sources(self):
         for fault in faults.read():
             with self.subTest(fault.line):
