@@ -388,7 +388,7 @@ TEST_CASE("what one thread throws ends the work of all") {
 TEST_CASE("progress is that of all threads") {
   std::mt19937_64 random = seeded_generator("threads");
   const Case c(random);
-  std::int64_t last = 0;
+  std::int64_t last = -1;
   int repeated = 0;
   const Outcome made = c.by_threads(3, Presplit::kOff, {.progress = [&](std::int64_t triangles) {
                                       repeated += triangles == last;
