@@ -123,9 +123,11 @@ def is_whole(text, before, behind):
             loosest = min(loosest, BINDS[word])
     left = re.search(r"\s(\|\||&&|[=!<>]=|[-+*/%<>])\s+$", before)
     right = re.match(r"\s+(\|\||&&|[=!<>]=|[-+*/%<>?])\s", behind)
-    negated = re.search(r"[(\s]!$", before) is not None
-    associates = left and left[1] in ("||", "&&")
-    return (not left or BINDS[left[1]] < loosest or (associates and BINDS[left[1]] == loosest)) and (not right or BINDS[right[1]] <= loosest) and (not negated or loosest == len(BINDS))
+    if re.search(r"[(\s]!$", before):
+        return loosest == len(BINDS)
+    if left and BINDS[left[1]] >= loosest + (left[1] in ("||", "&&")):  # these alone mean the same wherever they are begun
+        return False
+    return not right or BINDS[right[1]] <= loosest
 
 
 def may_begin_statement(before):

@@ -24,6 +24,7 @@
 #include "property/cases.hpp"
 #include "support/made_mesh.hpp"
 #include "support/prepared_mesh.hpp"
+#include "support/random_domain.hpp"
 #include "support/refine_together.hpp"
 
 // Decompositions of random domains: invariants, and refinement of the subdomains.
@@ -78,14 +79,6 @@ Outcome decompose_and_check(const Pslg& input, const Triangulation& mesh, int n)
   return outcome;
 }
 
-void append(Pslg& whole, const Pslg& part) {
-  const auto first = static_cast<std::int32_t>(whole.points.size());
-  whole.points.insert(whole.points.end(), part.points.begin(), part.points.end());
-  for (const Pslg::Segment& s : part.segments) whole.segments.push_back({s.a + first, s.b + first, s.marker});
-  whole.holes.insert(whole.holes.end(), part.holes.begin(), part.holes.end());
-  whole.regions.insert(whole.regions.end(), part.regions.begin(), part.regions.end());
-}
-
 /// Random domains beside each other, some a thousand times as large as others, and a chain of squares that touch at
 /// their corners.
 struct Archipelago {
@@ -103,7 +96,7 @@ Archipelago make_archipelago(std::uint64_t seed) {
     shape.scale = std::pow(10, 1.5 * unit(random));
     shape.offset = offset += 4 * shape.scale;
     offset += 4 * shape.scale;
-    append(result.input, make_random_pslg(random(), shape).input);
+    testing::append(result.input, make_random_pslg(random(), shape).input);
   }
   const auto chain = static_cast<std::int32_t>(1 + random() % 12);
   result.islands += chain;

@@ -25,7 +25,6 @@
 #include "mesh/cdt.hpp"
 #include "mesh/corners.hpp"
 #include "mesh/digest.hpp"
-#include "oracles/random_pslg.hpp"
 #include "property/cases.hpp"
 #include "protocol/rank_step.hpp"
 #include "protocol/threads/thread_network.hpp"
@@ -34,6 +33,7 @@
 #include "runtime/threads/refinement_in_rounds.hpp"
 #include "runtime/threads/thread_crew.hpp"
 #include "sizing/make_size_field.hpp"
+#include "support/random_domain.hpp"
 #include "support/refine_together.hpp"
 #include "verify/report_text.hpp"
 #include "verify/verify.hpp"
@@ -68,11 +68,7 @@ PlanOptions options_for(std::int32_t threads, std::int64_t slice, Presplit presp
 class Case {
  public:
   explicit Case(std::mt19937_64& random) {
-    const std::uint64_t seed = random();
-    oracles::RandomPslgShape shape = oracles::make_random_shape(seed);
-    shape.scale = 1;
-    shape.offset = 0;
-    input_ = oracles::make_random_pslg(seed, shape).input;
+    input_ = random_domain(random());
     Triangulation mesh = triangulate(input_);
     prepare_corners(mesh);
     bounds_.min_angle = std::uniform_real_distribution(15.0, 28.0)(random);

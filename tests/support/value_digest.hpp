@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "base/mix.hpp"
 
@@ -17,6 +18,9 @@ class ValueDigest {
   void add(std::span<const std::int32_t> values) {
     add(std::uint64_t{values.size()});
     for (const std::int32_t value : values) add(std::int64_t{value});
+  }
+  void add(std::string_view text) {
+    for (const char c : text) add(std::int64_t{c});
   }
   [[nodiscard]] std::uint64_t value() const { return value_; }
 

@@ -89,8 +89,9 @@ LoopPlan plan_of_toys(std::size_t count, WorkOrder order = WorkOrder::kGiven) {
 
 /// Two ranks on the same plan, the first of which holds toys and asks a policy that moves nothing.
 struct TwoRanksOfToys {
-  explicit TwoRanksOfToys(std::size_t count) : plan(plan_of_toys(count)), toys(2) {
-    for (const SubdomainId id : ids_of(plan.owners)) toys[0_rank].put(Toy(id, 100, worked));
+  /// `seconds`: of a slice.
+  explicit TwoRanksOfToys(std::size_t count, double seconds = 0) : plan(plan_of_toys(count)), toys(2) {
+    for (const SubdomainId id : ids_of(plan.owners)) toys[0_rank].put(Toy(id, 100, worked)).seconds = seconds;
     balancer::Layout layout;
     layout.ranks = 2;
     layout.subdomains.resize(count);
@@ -203,8 +204,7 @@ TEST_CASE("what a crew still works on when the run is given up counts no more") 
 }
 
 TEST_CASE("what an observer waits for makes its rank slow") {
-  TwoRanksOfToys ranks(4);
-  for (int i = 0; i < 4; ++i) ranks.toy(i).seconds = 1e-3;
+  TwoRanksOfToys ranks(4, 1e-3);
   RankLoop::Observers observers;
   observers.after_slice = [&](const RankLoop&, const RankLoop::Slice& slice) {
     CHECK(slice.seconds == doctest::Approx(1e-3));
@@ -233,8 +233,7 @@ TEST_CASE("points that wait to be inserted are work") {
 
 TEST_CASE("a rank looks at its load less often where looking takes long") {
   const auto share_of_looking = [](double listed) {
-    TwoRanksOfToys ranks(20);
-    for (int i = 0; i < 20; ++i) ranks.toy(i).seconds = 1e-3;
+    TwoRanksOfToys ranks(20, 1e-3);
     CostModel costs;
     costs.listed = listed;
     const RankTimes times = ranks.run(costs);
@@ -246,9 +245,8 @@ TEST_CASE("a rank looks at its load less often where looking takes long") {
 
 TEST_CASE("a rank plans less often where planning takes long") {
   const auto run = [](double factor) {
-    TwoRanksOfToys ranks(20);
+    TwoRanksOfToys ranks(20, 1e-2);
     ranks.plan.balancing.options.overhead = 0.002;
-    for (int i = 0; i < 20; ++i) ranks.toy(i).seconds = 1e-2;
     CostModel costs;
     for (auto& [kind, seconds] : costs.planning.unit) seconds *= factor;
     const RankTimes times = ranks.run(costs);

@@ -12,8 +12,8 @@
 
 #include "driftmesh/error.hpp"
 #include "mesh/refiner.hpp"
-#include "oracles/random_pslg.hpp"
 #include "support/prepared_mesh.hpp"
+#include "support/random_domain.hpp"
 
 // Triangles in a byte each: back as they were, small, and refused where they cannot be.
 
@@ -77,10 +77,7 @@ TEST_CASE("coded triangles come back, and take no more bytes than they did") {
   std::size_t bytes = 0, triangles = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     CAPTURE(seed);
-    oracles::RandomPslgShape shape = oracles::make_random_shape(seed);
-    shape.scale = 1;
-    shape.offset = 0;
-    Triangulation mesh = prepared(oracles::make_random_pslg(seed, shape).input);
+    Triangulation mesh = prepared(random_domain(seed));
     QualityBounds bounds;
     bounds.plain.area = 0.004;
     CHECK(Refiner(mesh, bounds).refine() == Refiner::Status::kDone);

@@ -10,6 +10,7 @@
 
 #include "driftmesh/id_vector.hpp"
 #include "oracles/random_polygons.hpp"
+#include "support/grid_polygons.hpp"
 #include "verify/cut_rings.hpp"
 #include "verify/domain.hpp"
 #include "verify/polygons_check.hpp"
@@ -22,32 +23,8 @@ using namespace driftmesh::oracles;
 
 namespace {
 
-/// Raw rings, with the segments that join their corners.
-Pslg given(const RandomPolygons& set) {
-  Pslg pslg;
-  for (const GridPolygon& polygon : set.polygons) {
-    Pslg::Polygon& taken = pslg.polygons.emplace_back();
-    if (polygon.region) {
-      taken.region = static_cast<std::int32_t>(pslg.regions.size());
-      pslg.regions.push_back({{}, *polygon.region, 0});
-    }
-    for (const GridRing& ring : polygon.rings) {
-      Pslg::Ring& corners = taken.rings.emplace_back();
-      const auto first = static_cast<std::int32_t>(pslg.points.size()), n = static_cast<std::int32_t>(ring.size());
-      for (std::int32_t i = 0; i < n; ++i) {
-        const GridPoint& p = ring[to_index(i)];
-        pslg.points.push_back(
-            {static_cast<double>(set.origin.x + p.x) * set.unit, static_cast<double>(set.origin.y + p.y) * set.unit});
-        corners.push_back(first + i);
-        pslg.segments.push_back({first + i, first + (i + 1) % n, 0});
-      }
-    }
-  }
-  return pslg;
-}
-
 Pslg given(const std::vector<GridPolygon>& polygons) {
-  return given(RandomPolygons{polygons, {}, 1});
+  return driftmesh::testing::raw_rings(RandomPolygons{polygons, {}, 1});
 }
 
 Domain domain_of(const Pslg& input, const std::vector<Point>& places = {}) {
@@ -91,7 +68,7 @@ TEST_CASE("areas of random polygons and of their regions are those of the oracle
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
     const RandomPolygons set = make_random_polygons(seed);
     const PolygonAreas expected = covered_areas(set.polygons);
-    const Domain domain = domain_of(given(set));
+    const Domain domain = domain_of(driftmesh::testing::raw_rings(set));
     const double square = set.unit * set.unit, tolerance = domain.border_tolerance() + 1e-12 * domain.area();
     CAPTURE(seed);
     CHECK(std::fabs(domain.area() - static_cast<double>(expected.total) * square) <= tolerance);
@@ -177,10 +154,11 @@ TEST_CASE("polygons that were snapped or simplified are judged by areas, within 
     CHECK(report.findings.total() == report.findings.count(Flaw::kWrongPolygons));
     return report.findings.count(Flaw::kWrongPolygons);
   };
-  Pslg raw = given(RandomPolygons{{{{rectangle(0, 0, 100, 201)}, 1}, {{rectangle(100, 0, 200, 200)}, 2}}, {}, 0.01});
+  Pslg raw =
+      raw_rings(RandomPolygons{{{{rectangle(0, 0, 100, 201)}, 1}, {{rectangle(100, 0, 200, 200)}, 2}}, {}, 0.01});
   CHECK(wrong(raw, 0) == 2);  // the domain and region 1
   CHECK(wrong(raw, 0.01) == 0);
-  raw = given(RandomPolygons{{{{rectangle(0, 0, 200, 200)}, 1}}, {}, 0.01});  // region 2 is missing
+  raw = raw_rings(RandomPolygons{{{{rectangle(0, 0, 200, 200)}, 1}}, {}, 0.01});  // region 2 is missing
   CHECK(wrong(raw, 0.01) == 2);
 }
 
