@@ -41,6 +41,7 @@ BUILD = COPY / "build/ci"  # where it would lie beside the sources: a compiler c
 PLACES = 1 << 16
 FOLDERS = ["unit", "property", "protocol", "regression", "sim", "mutants", "cli", "digests", "c", "mpi", "python"]
 BYTES = 4 << 30
+NOTICED = pathlib.Path(__file__).resolve().with_name("noticed.json")  # what noticed each fault, by its number: what to try first anywhere
 PAGE = """# Results: do the tests notice?
 
 By `tests/mutation/mutation.py --update`: faults of one line each are put into the sources one at a time, and the tests that pass the
@@ -245,18 +246,29 @@ class Verdicts:
     def __init__(self, data):
         self.store = COPY / "verdicts.json"
         self.known = json.loads(self.store.read_text()) if self.store.is_file() else {}
+        self.noticed = json.loads(NOTICED.read_text()) if NOTICED.is_file() else {}
         self.killers = collections.defaultdict(collections.Counter)  # of faults in a file
         for fault in data:
-            self.count(self.of(fault))
+            self.count(fault, self.noticed_by(fault))
 
-    def count(self, v):
-        if v and v.noticed:
-            self.killers[v.fault.file][v.by] += 1
+    def noticed_by(self, fault):
+        """The test that noticed it the last time, here or elsewhere, or None."""
+        v = self.of(fault)
+        return v.by if v and v.noticed else self.noticed.get(str(fault.number))
+
+    def count(self, fault, test):
+        if test:
+            self.killers[fault.file][test] += 1
 
     def keep(self, v):
         self.known[str(v.fault.number)] = [v.how, v.by, v.tried, v.seconds]
         self.store.write_text(json.dumps(self.known))
-        self.count(v)
+        self.count(v.fault, v.by if v.noticed else None)
+
+    def record(self, data):
+        """Keeps in the tree what noticed faults, for those who try them next."""
+        by = {str(f.number): test for f in data if (test := self.noticed_by(f))}
+        NOTICED.write_text(json.dumps(by, indent=0, sort_keys=True) + "\n")
 
     def of(self, fault):
         known = self.known.get(str(fault.number))
@@ -264,8 +276,8 @@ class Verdicts:
 
     def likely_killers(self, fault):
         """The names of tests: what noticed it the last time, and what noticed most others in that file."""
-        v = self.of(fault)
-        return list(dict.fromkeys(([v.by] if v and v.noticed else []) + [name for name, _ in self.killers[fault.file].most_common(8)]))
+        known = self.noticed_by(fault)
+        return list(dict.fromkeys(([known] if known else []) + [name for name, _ in self.killers[fault.file].most_common(8)]))
 
 
 def try_fault(fault, usable, kept, options):
@@ -387,8 +399,9 @@ def main():
     say("\n" + made.markdown())
     if options.update:
         everything = faults.read()
+        kept.record(everything)
         if untried := [f for f in everything if not kept.of(f)]:
-            say(f"{len(untried)} faults have not been tried on this copy, the first of them {untried[0].line}; nothing is recorded")
+            say(f"{len(untried)} faults have not been tried on this copy, the first of them {untried[0].line}; the page of results stays as it is")
             return 2
         made = table(in_order(kept, everything))
         page = ROOT / results.FOLDER / "mutation.md"
