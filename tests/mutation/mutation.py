@@ -223,8 +223,12 @@ def learn_places(all_units, jobs, longest):
         unit.seconds, unit.places, unit.fails = seen["seconds"], frozenset(seen["places"]), seen["outcome"] == "failed"
         return seen["outcome"] == "passed"
 
+    usable = []
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        usable = [unit for unit, good in zip(all_units.values(), pool.map(learn, all_units.values())) if good]
+        for unit, good in zip(all_units.values(), pool.map(learn, all_units.values())):
+            usable += [unit] if good else []
+            if len(fresh) % 100 == 0:  # so that a run that is stopped has not learned for nothing
+                store.write_text(json.dumps(known | fresh))
     store.write_text(json.dumps(known | fresh))
     return usable
 

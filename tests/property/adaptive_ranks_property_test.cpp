@@ -12,13 +12,11 @@
 #include <vector>
 
 #include "adapt/session.hpp"
-#include "api/call.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/id_vector.hpp"
 #include "io/hdf5_bytes.hpp"
-#include "job/here.hpp"
-#include "job/make.hpp"
 #include "oracles/random_pslg.hpp"
+#include "support/adaptive_start.hpp"
 #include "support/error_text.hpp"
 #include "support/on_ranks.hpp"
 #include "support/piece_of_whole.hpp"
@@ -30,9 +28,11 @@
 
 using namespace driftmesh;
 using testing::error_text;
+using testing::first_generation;
 using testing::mentions;
 using testing::on_ranks;
 using testing::Random;
+using testing::start_on;
 using testing::uniform;
 
 namespace {
@@ -42,25 +42,6 @@ constexpr int kSeeds = 2;
 #else
 constexpr int kSeeds = 3;
 #endif
-
-/// The first generation, as AdaptiveMesh makes it.
-job::LiveMesh first_generation(const Pslg& input, const MeshOptions& options) {
-  Call call(input, options);
-  job::Here here(job::kSubdomains, 1);
-  job::RunRecord record;
-  return job::make(call.asked(here.kind()), here, record, call.watch())->take_live(call.request());
-}
-
-/// The part of it that a rank holds.
-adapt::Start start_on(Rank rank, const job::LiveMesh& live, const IdVector<SubdomainId, Rank>& holders) {
-  adapt::Start start{live.plan, live.pslg, {}, {}};
-  start.plan.policy.reset();
-  for (const auto& [s, part] : live.parts)
-    if (holders[s] == rank) start.parts[s] = part;
-  for (const auto& [s, lengths] : live.lengths)
-    if (holders[s] == rank) start.lengths[s] = lengths;
-  return start;
-}
 
 struct FieldCase {
   std::string name;

@@ -16,6 +16,7 @@
 #include "support/recorded.hpp"
 #include "support/value_digest.hpp"
 #include "support/varied_domain.hpp"
+#include "support/waves.hpp"
 
 // Meshes that follow lengths for some generations, with fields of all kinds, to the last bit: what the session decides
 // (what stays, what is mended, cut and joined) shows in the mesh, in fields and in reports. That these meshes are right
@@ -35,12 +36,6 @@ double length_at(const Point& p, std::uint64_t seed, int generation) {
   const double radius = 0.3 + 0.15 * generation + 0.1 * static_cast<double>(seed % 5);
   const double fine = seed % 3 == 0 ? 0.02 : 0.06;
   return std::min(fine + 0.5 * std::abs(std::hypot(p.x - 0.5, p.y) - radius), seed % 2 == 0 ? 0.5 : 0.25);
-}
-
-std::vector<double> waves(std::size_t count, double frequency) {
-  std::vector<double> values;
-  for (std::size_t i = 0; i < count; ++i) values.push_back(std::sin(frequency * static_cast<double>(i)));
-  return values;
 }
 
 void add(ValueDigest& digest, AdaptiveMesh& session) {
