@@ -22,7 +22,7 @@ class Reader {
 
   Switches read() {
     while (at_ < text_.size()) take(text_[at_++]);
-    if (switches_.quality && boundary_ > 0)
+    if (boundary_ > 0)
       switches_.rules.split = boundary_ > 1 ? InsertionRules::Split::kNowhere : InsertionRules::Split::kInside;
     if (!switches_.pslg || switches_.refine)
       switches_.region_attributes = false;  // those of an old mesh stay as they are

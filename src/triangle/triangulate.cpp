@@ -263,8 +263,9 @@ Made make_once(const Tables& in, const Switches& switches, const Caller& caller)
 
 // ---- Refining what the caller finds unsuitable ----
 
-/// Bounds the area of each triangle that the caller finds unsuitable by half of what it is. Whether there are any.
-bool halve_unsuitable(const Caller& caller, Made& made) {
+/// Bounds the area of each triangle that the caller finds unsuitable by what it is, so that it is split (see
+/// AreaField). Whether there are any.
+bool bound_unsuitable(const Caller& caller, Made& made) {
   const Tables& mesh = made.tables;
   made.areas.resize(mesh.triangle_count(), 0);
   bool any = false;
@@ -272,7 +273,7 @@ bool halve_unsuitable(const Caller& caller, Made& made) {
     const auto [a, b, c] = points_at(mesh, t);
     const double area = signed_area(a, b, c);
     if (!caller.unsuitable(a, b, c, area)) continue;
-    made.areas[t] = made.areas[t] > 0 ? std::min(made.areas[t], area / 2) : area / 2;
+    made.areas[t] = area;
     any = true;
   }
   return any;
@@ -284,7 +285,7 @@ Made make(const Tables& in, const Switches& switches, const Caller& caller) {
   if (!switches.unsuitable || !caller.unsuitable) return made;
   Switches again = switches;
   again.refine = again.pslg = again.given_areas = true;
-  while (halve_unsuitable(caller, made)) {
+  while (bound_unsuitable(caller, made)) {
     Tables& mesh = made.tables;
     const std::size_t before = mesh.points.size();
     if (std::int64_t& most = again.rules.most_points; most != INT64_MAX)
