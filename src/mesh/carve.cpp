@@ -143,6 +143,7 @@ void keep_inner_sides(Triangulation& mesh, const std::vector<SegmentSides>& side
     const RootSegment& root = mesh.roots[static_cast<RootId>(first_root + i)];
     const auto& half = mesh.subsegments[root.tree].half;
     for (const auto& [edge, side] : {std::pair(half[0], sides[i].left), std::pair(half[1], sides[i].right)}) {
+      DM_ASSERT(side == kNone || edge != kNone);  // a segment that comes twice has its triangles once
       if (side == kNone || inside.reached(triangle_of(edge))) continue;
       const std::size_t before = inside.triangles().size();
       inside.add(triangle_of(edge));

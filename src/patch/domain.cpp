@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/formatted.hpp"
+#include "driftmesh/error.hpp"
 #include "geometry/triangle_geometry.hpp"
 
 namespace driftmesh::patch {
@@ -59,6 +61,7 @@ class Builder {
       if (extent_.taken[t]) add_borders(t);
     for (const Piece& piece : extent_.pieces) add_piece(piece);
     fuse_chains();
+    require_single_lines();
     return domain();
   }
 
@@ -178,6 +181,19 @@ class Builder {
     } else {
       for (std::size_t i = 0; i < chain.size(); ++i) fused.push_back(borders_[chain[i]].from(points[i]));
     }
+  }
+
+  /// A large tolerance puts several lines of the old outline on one of the new.
+  void require_single_lines() const {
+    std::vector<std::pair<std::int32_t, std::int32_t>> ends;
+    for (const Border& border : borders_) ends.emplace_back(std::min(border.a, border.b), std::max(border.a, border.b));
+    std::ranges::sort(ends);
+    const auto twice = std::ranges::adjacent_find(ends);
+    if (twice == ends.end()) return;
+    const Point &a = places_[to_index(twice->first)], &b = places_[to_index(twice->second)];
+    throw Error(formatted(
+        "between ({}, {}) and ({}, {}) several lines are within the tolerance of one; ask for a smaller tolerance", a.x,
+        a.y, b.x, b.y));
   }
 
   // ---- The result ----

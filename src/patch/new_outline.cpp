@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "base/formatted.hpp"
+#include "driftmesh/error.hpp"
 #include "geometry/box_tree.hpp"
 #include "geometry/segment_geometry.hpp"
 
@@ -101,7 +103,14 @@ class Matching {
     for (Root& root : roots_) {
       std::ranges::sort(root.covered, {}, &Root::Covered::from);
       Point at = root.end[0];
+      double reached = -std::numeric_limits<double>::infinity();
       for (const Root::Covered& covered : root.covered) {
+        if (covered.from < reached)
+          throw Error(
+              formatted("at ({}, {}) several lines of the old outline are within the tolerance of one of the new one; "
+                        "ask for a smaller tolerance",
+                        covered.first.x, covered.first.y));
+        reached = covered.to;
         if (!(at == covered.first)) add_piece(root, at, covered.first);
         at = covered.last;
       }

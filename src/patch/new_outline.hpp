@@ -44,7 +44,8 @@ struct OutlineMatch {
   std::vector<Point> corners;         ///< the points of the new domain
 };
 
-/// `made`: the triangulation of the domain. `index`: of the mesh.
+/// `made`: the triangulation of the domain. `index`: of the mesh. Throws Error where the tolerance puts several edges
+/// on the same part of a segment.
 [[nodiscard]] OutlineMatch match_outlines(const Mesh& mesh, const ConstrainedEdgeIndex& index, const NewDomain& domain,
                                           const Triangulation& made);
 

@@ -11,6 +11,7 @@
 #include "driftmesh/repair.hpp"
 #include "geometry/box_tree.hpp"
 #include "geometry/predicates.hpp"
+#include "geometry/segment_geometry.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/settle_points.hpp"
@@ -78,6 +79,7 @@ class Search {
         made_(triangulated(domain)),
         locator_(made_),
         index_(mesh),
+        rounding_(rounding_of_midpoints(mesh.points)),
         on_gone_(mesh.points.size(), false),
         on_line_(mesh.points.size(), false) {}
 
@@ -86,6 +88,9 @@ class Search {
     for (std::size_t e = 0; e < mesh_.edges.size(); ++e)
       for (const std::int32_t v : {mesh_.edges[e].a, mesh_.edges[e].b})
         (change_.match.gone[e] ? on_gone_ : on_line_)[to_index(v)] = true;
+    std::vector<Box> boxes;
+    for (const Piece& piece : change_.match.pieces) boxes.push_back(Box::around(piece.end[0], piece.end[1], rounding_));
+    pieces_ = BoxTree(boxes);
     require_weirs();
     add_touched();
     add_areas();
@@ -110,16 +115,12 @@ class Search {
   }
 
   void add_touched() {
-    const std::vector<Piece>& pieces = change_.match.pieces;
-    std::vector<Box> boxes;
-    for (const Piece& piece : pieces) boxes.push_back(Box::around(piece.end[0], piece.end[1]));
-    const BoxTree tree(boxes);
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       bool touched = std::ranges::any_of(mesh_.triangles[t], [&](std::int32_t v) { return on_gone_[to_index(v)]; });
       const CornerPoints points = corners(t);
       const Box box = Box::of(points);
-      tree.search([&](const Box& other) { return !touched && other.overlaps(box); },
-                  [&](std::int32_t i) { touched = touched || touch(pieces[to_index(i)], points); });
+      pieces_.search([&](const Box& other) { return !touched && other.overlaps(box); },
+                     [&](std::int32_t i) { touched = touched || touch(change_.match.pieces[to_index(i)], points); });
       change_.inside.push_back(touched);
     }
   }
@@ -159,6 +160,15 @@ class Search {
     change_.inside[nearest] = true;
   }
 
+  [[nodiscard]] bool is_on_piece(const Point& p) const {
+    bool on = false;
+    pieces_.visit_containing(p, [&](std::int32_t i) {
+      const auto& [a, b] = change_.match.pieces[to_index(i)].end;
+      on = on || squared_distance_to_segment(p, a, b) <= rounding_ * rounding_;
+    });
+    return on;
+  }
+
   void drop_points() {
     if (mesh_.point_markers.empty()) return;
     std::vector<bool> seen(mesh_.points.size(), false);
@@ -168,7 +178,8 @@ class Search {
         const std::size_t i = to_index(v);
         if (seen[i] || on_line_[i] || mesh_.point_markers[i] == 0) continue;
         seen[i] = true;
-        if (on_gone_[i] || locator_.locate(mesh_.points[i]).beyond) change_.dropped.push_back(v);
+        if (on_gone_[i] || is_on_piece(mesh_.points[i]) || locator_.locate(mesh_.points[i]).beyond)
+          change_.dropped.push_back(v);
       }
     }
     std::ranges::sort(change_.dropped);
@@ -180,7 +191,9 @@ class Search {
   Triangulation made_;
   adapt::Locator locator_;
   ConstrainedEdgeIndex index_;
+  double rounding_;
   std::vector<bool> on_gone_, on_line_;  // points
+  BoxTree pieces_;
   OutlineChange change_;
 };
 

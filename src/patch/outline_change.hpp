@@ -12,7 +12,7 @@ namespace driftmesh::patch {
 struct OutlineChange {
   OutlineMatch match;
   std::vector<bool> inside;           ///< for each triangle, whether it has to be made anew
-  std::vector<std::int32_t> dropped;  ///< points with a marker of their own that are no longer on a line, or outside
+  std::vector<std::int32_t> dropped;  ///< marked points that are on a line no longer, on a new one, or outside
   std::int64_t other_markers = 0;     ///< listed edges that keep markers which are others in the new domain
 };
 

@@ -117,6 +117,35 @@ TEST_CASE("a weir stays where it is, or is an error") {
   CHECK(adapt_outline(before, port(3)).mesh.weirs == before.weirs);
 }
 
+TEST_CASE("a tolerance that takes two lines for one is an error") {
+  Pslg pier = port(3);
+  pier.points.insert(pier.points.end(), {{1, 1}, {2, 1}, {1, 1.05}, {2, 1.05}});
+  pier.segments.insert(pier.segments.end(), {{5, 6, 6}, {7, 8, 6}});
+  const Mesh before = mesh(pier, {.max_area = 0.05});
+  Pslg line = port(3);
+  line.points.insert(line.points.end(), {{1, 1.02}, {2, 1.02}});
+  line.segments.push_back({5, 6, 6});
+  const AdaptedMesh after = adapt_outline(before, line);
+  CHECK(check(after.mesh, line).accepted);
+  CHECK(error_text([&] { (void)adapt_outline(before, line, {.tolerance = 0.04}); }).find("smaller tolerance") !=
+        std::string::npos);
+}
+
+TEST_CASE("marked points where nobody lists a line make way for one") {
+  Pslg wall = port(3);
+  wall.points.insert(wall.points.end(), {{0.5, 1}, {3.5, 1}});
+  wall.segments.push_back({5, 6, 6});
+  Mesh before = mesh(wall, {.max_area = 0.05});
+  std::erase_if(before.edges, [](const Mesh::Edge& edge) { return edge.marker == 6; });
+  before.point_markers.resize(before.points.size(), 0);
+  std::ptrdiff_t marked = 0;
+  for (std::size_t v = 0; v < before.points.size(); ++v)
+    if (before.points[v].y == 1 && before.points[v].x > 0.4 && before.points[v].x < 3.6)
+      before.point_markers[v] = 6, ++marked;
+  CHECK(marked > 4);
+  CHECK(check(adapt_outline(before, wall).mesh, wall).accepted);
+}
+
 TEST_CASE("an old mesh is kept on request") {
   AdaptiveMesh adaptive(port(3), {.max_area = 0.02, .threads = 1});
   const auto refine = [&](double length) {

@@ -128,6 +128,19 @@ TEST_CASE("an area has the triangles that share more than a border with it") {
   CHECK(all > 1000);
 }
 
+TEST_CASE("what is in a hole is not in the area") {
+  const Mesh mesh = grid();
+  const auto square = [](double low, double high) {
+    return std::vector<Point>{{low, low}, {high, low}, {high, high}, {low, high}};
+  };
+  Rings rings{square(1, 8), square(2.5, 6)};
+  std::ranges::reverse(rings.back());
+  Pslg pslg;
+  add(pslg, rings, true);
+  const std::vector<bool> inside = patch::triangles_in(mesh, pslg);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) CHECK(inside[t] == (shared_area(mesh, t, rings) > 1e-9));
+}
+
 TEST_CASE("a box has the triangles that share more than a border with it") {
   const Mesh mesh = grid();
   std::mt19937 random(1);
