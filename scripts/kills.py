@@ -90,9 +90,11 @@ class Journey:
         try:
             run.communicate(timeout=60)
         except subprocess.TimeoutExpired:
+            left = subprocess.run(["ps", "-o", "pid,ppid,stat,wchan:20,time,args", "--ppid", str(run.pid), "-p", str(run.pid)],
+                                  capture_output=True, text=True, check=False).stdout
             run.kill()
             run.communicate()
-            raise SystemExit(f"FAILED: a run did not end after {number.name} to {whom}") from None
+            raise SystemExit(f"FAILED: a run did not end after {number.name} to {whom} of {ranks}:\n{left}") from None
         for rank in ranks:  # those that nobody waits for, as a batch system would
             send(rank, signal.SIGKILL)
         while any(pathlib.Path(f"/proc/{rank}").exists() for rank in ranks):

@@ -89,21 +89,22 @@ void add(ValueDigest& digest, const adapt::Session& session) {
 
 /// Notes the loads, and sends some parts elsewhere, or none at all.
 adapt::Placing note_and_move(std::uint64_t seed, ValueDigest& digest, Ranks& ranks) {
-  return [&, dice = std::mt19937_64(seed)](const adapt::Loads& loads, const adapt::Generation& generation,
-                                           const Decomposition& decomposition) mutable {
-    digest.add(std::uint64_t{decomposition.size()});
-    for (const auto* values : {&loads.work, &loads.bytes}) add(digest, {values->begin(), values->end()});
-    add(digest, {loads.speeds.begin(), loads.speeds.end()});
-    digest.add(imbalance(loads, generation.holders));
-    std::vector<Rank> own;
-    if (seed % 4 == 3) return own;
-    for (const SubdomainId s : ids_of(generation.holders)) {  // the same on all ranks
-      const bool moves = dice() % 4 == 0;
-      const auto to = static_cast<Rank>(dice() % static_cast<std::uint64_t>(ranks.ranks()));
-      if (generation.is_here(s)) own.push_back(moves ? to : generation.holders[s]);
-    }
-    return own;
-  };
+  return
+      [seed, &digest, &ranks, dice = std::mt19937_64(seed)](
+          const adapt::Loads& loads, const adapt::Generation& generation, const Decomposition& decomposition) mutable {
+        digest.add(std::uint64_t{decomposition.size()});
+        for (const auto* values : {&loads.work, &loads.bytes}) add(digest, {values->begin(), values->end()});
+        add(digest, {loads.speeds.begin(), loads.speeds.end()});
+        digest.add(imbalance(loads, generation.holders));
+        std::vector<Rank> own;
+        if (seed % 4 == 3) return own;
+        for (const SubdomainId s : ids_of(generation.holders)) {  // the same on all ranks
+          const bool moves = dice() % 4 == 0;
+          const auto to = static_cast<Rank>(dice() % static_cast<std::uint64_t>(ranks.ranks()));
+          if (generation.is_here(s)) own.push_back(moves ? to : generation.holders[s]);
+        }
+        return own;
+      };
 }
 
 /// What the caller tells of its own work: nothing, seconds of ranks or of parts, and not on all ranks.
@@ -203,10 +204,10 @@ std::uint64_t digest_on_ranks(std::uint64_t seed, AdaptReport& sums) {
 }
 
 constexpr std::array<std::uint64_t, 16> kRecordedSessions{
-    0x8d8835a6d1005145, 0x60ada494a0e87689, 0x5cd704e8fe8c1331, 0x36b0f45a4034e523,
-    0x63dcef74a4662e06, 0x580b8d36d1bc75d7, 0x3801483ed7713d42, 0xd8f15a523dc72e28,
-    0x84774674c44d871f, 0x1c6d50bef0a33ff6, 0x68cadd448d0b22cc, 0xed219045e406e30e,
-    0x885975de787c4796, 0x26262a687ccb90a7, 0xa4332002da803242, 0x352752beb2cef18d};
+    0xd08354dfdc40b5b4, 0xaf4f1455979570a4, 0xe6bc30e82a407d2f, 0x36b0f45a4034e523,
+    0xfe6f5a8e3e2eec39, 0xabaa8ee3fc2ae601, 0x8b4e8f5ebfcc85e3, 0xd8f15a523dc72e28,
+    0x4801aa618d163b27, 0xcc5ea4995b87ebb3, 0x88f00b0a272037af, 0xed219045e406e30e,
+    0x813f83a8e84ba169, 0x25c0a61d8a148961, 0x6346c3d8a00b1b5a, 0x352752beb2cef18d};
 
 }  // namespace
 
