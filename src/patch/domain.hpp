@@ -33,7 +33,8 @@ struct Extent {
 };
 
 /// The triangles that are taken, as a domain. Chains of segments in line become one, and free points disappear, where
-/// all triangles around them are inside. With a new outline, what is taken is exchanged for what it bounds there.
+/// all triangles around them are inside. With a new outline, what is taken is exchanged for what it bounds there;
+/// throws Error where its tolerance has put a line on another one.
 [[nodiscard]] Domain domain_of(const Part& part, const Extent& extent, const OldPlaces& old);
 
 }  // namespace driftmesh::patch
