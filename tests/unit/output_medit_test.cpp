@@ -87,6 +87,7 @@ TEST_CASE("meshes of mmg2d, FreeFEM and MFEM are read") {
 TEST_CASE("a .mesh with what a planar mesh of triangles cannot have is refused, with its line") {
   const std::vector<std::array<std::string, 3>> cases{
       {"0 .125 0. 0", "0 .125 0.1 0", "foreign.mesh:17: has a point off the plane"},
+      {"0 .125 0. 0", "0 .125 -1e-9 0", "foreign.mesh:17: has a point off the plane"},
       {"Triangles 2", "Quadrilaterals 2", "foreign.mesh:21: has Quadrilaterals"},
       {"1 2 3 4\n", "0 2 3 4\n", "names point 0, but numbers begin at 1"},
       {"1 3 4 0", "1 3 5 0", "names vertex 4 of 4"},

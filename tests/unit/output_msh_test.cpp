@@ -235,6 +235,16 @@ TEST_CASE("a clockwise mesh is reversed as a whole; a single inverted triangle s
   CHECK(read_mesh(path).triangles == std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}});
 }
 
+TEST_CASE("the plane of a .msh may have any height") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "mesh.msh";
+  std::string lifted = replaced(kGmshText, "\n0 0 0\n", "\n0 0 -2.5\n");
+  lifted = replaced(lifted, "1 0 0 0.5\n", "1 0 -2.5 0.5\n");
+  lifted = replaced(lifted, "1 1 0\n0 1 0\n", "1 1 -2.5\n0 1 -2.5\n");
+  replace_file(path, lifted);
+  check_same_mesh(read_mesh(path), mesh_of_gmsh_text());
+}
+
 TEST_CASE("a .msh that cannot be read is rejected with a next step") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "mesh.msh";

@@ -239,6 +239,8 @@ TEST_CASE("integers of a .vtu that do not fit are refused, not wrapped, and so a
     written(corners, "1 1 1", flat);
     CHECK(message_of(path) != "no error");
   }
+  written("0 1 2", "1 1", flat);
+  CHECK(mentions(message_of(path), {"2", "3"}));
   written("0 1 2", "1 1 1 1", flat);
   CHECK(mentions(message_of(path), {"4", "3"}));
   written("0 1 2", "1 1 1x", flat);

@@ -245,6 +245,64 @@ TEST_CASE("where several tiles have a value, that of the first counts") {
   }
 }
 
+TEST_CASE("a tile is read before those that overlap it and come later, however long that takes") {
+  const TemporaryFolder folder;
+  const std::int64_t rows = 4000;
+  const auto tile = [&](const char* name, std::int64_t tall, int value) {
+    const std::string path = folder.path() / name;
+    std::ofstream file(path);
+    file << "ncols 4\nnrows " << tall << "\nxllcenter 0\nyllcenter 0\ncellsize 1\n";
+    for (std::int64_t j = 0; j < tall; ++j) file << value << ' ' << value << ' ' << value << ' ' << value << '\n';
+    return RasterTile{path, {4, tall, {0, 0}, 1, 1}};
+  };
+  const std::vector<RasterTile> tiles{tile("tall.asc", rows, 1), tile("low.asc", 1, 2)};  // whose row is the last one
+  const RasterFrame around{4, rows, {0, 0}, 1, 1};
+  CHECK(read_tiles(tiles, around, {0, 0, around}, 2).at(2, 0) == 1);
+}
+
+TEST_CASE("beyond the domain, a raster of a stack goes on") {
+  const TemporaryFolder folder;
+  const auto raster = [&](const char* name, double first, int value, bool gap) {
+    const std::string path = folder.path() / name;
+    std::ofstream file(path);
+    file << "ncols 41\nnrows 41\nxllcenter " << first << "\nyllcenter " << first << "\ncellsize 1\nnodata_value -1\n";
+    for (int j = 0; j < 41; ++j)
+      for (int i = 0; i < 41; ++i) file << (gap && i == 20 && j == 20 ? -1 : value) << (i < 40 ? ' ' : '\n');
+    return path;
+  };
+  const std::vector<std::string> paths{raster("upper.asc", 0, 7, true), raster("lower.asc", -0.3, 3, false)};
+  const OpenedRaster opened = open_rasters(paths, {{{15, 15}, {25, 25}}, {}, {}}, {});
+  CHECK(opened.raster->at({20, 20}) == 3);
+  for (const Point& p : {Point{20, -9}, Point{20, 49}, Point{-9, 20}, Point{49, 20}}) CHECK(opened.raster->at(p) == 7);
+}
+
+TEST_CASE("tiles of one grid that are far apart do not make one huge raster") {
+  const TemporaryFolder folder;
+  const auto tile = [&](const char* name, double at, int value) {
+    const std::string path = folder.path() / name;
+    std::ofstream(path) << "ncols 2\nnrows 2\nxllcenter " << at << "\nyllcenter " << at << "\ncellsize 1\n"
+                        << value << ' ' << value << '\n'
+                        << value << ' ' << value << '\n';
+    return path;
+  };
+  const std::vector<std::string> paths{tile("here.asc", 0, 7), tile("there.asc", 200000, 3)};
+  const OpenedRaster opened = open_rasters(paths, {{{0, 0}, {200001, 200001}}, {}, {}}, {});
+  CHECK(opened.raster->at({0.5, 0.5}) == 7);
+  CHECK(opened.raster->at({200000.5, 200000.5}) == 3);
+}
+
+TEST_CASE("bounds hold the values beyond a line of the grid that a box reaches by rounding alone") {
+  TiledGrid grid(RasterFrame{40, 3, {0, 0}, 1, 1});
+  for (std::int64_t j = 0; j < 3; ++j)
+    for (std::int64_t i = 0; i < 40; ++i) grid.set(i, j, i == 15 ? 1000 : i == 16 ? 100 : 0);
+  const GridRaster raster(std::move(grid));
+  const Point just_beyond{16 - 1e-13, 1};
+  REQUIRE(raster.at(just_beyond) > 100);
+  const Extent bounds = raster.over({{just_beyond.x, 0}, {30, 2}});
+  CHECK(bounds.high >= raster.at(just_beyond));
+  CHECK(bounds.high < 100.001);
+}
+
 TEST_CASE("a grid in other coordinates covers its box, as finely as the raster in either direction") {
   TiledGrid source(RasterFrame{40, 40, {0, 0}, 1, 1});
   for (std::int64_t j = 0; j < 40; ++j)

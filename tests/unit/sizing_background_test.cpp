@@ -224,6 +224,14 @@ TEST_CASE("area bounds apply triangle by triangle, the largest one where triangl
   CHECK(half_bounded->at({0.7, 0.2}) == doctest::Approx(std::sqrt(0.04 / std::sqrt(3.0))));
 }
 
+TEST_CASE("the first of the triangles that meet at a point has it") {
+  const std::vector<Point> points{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  for (const auto& triangles : {std::vector<BackgroundMesh::Triangle>{{0, 1, 2}, {0, 2, 3}}, {{0, 2, 3}, {0, 1, 2}}}) {
+    const BackgroundMesh mesh(points, triangles);
+    for (const Point& p : {points[0], points[2], Point{0.5, 0.5}}) CHECK(mesh.locate(p).triangle == 0);
+  }
+}
+
 TEST_CASE("unusable background meshes are rejected") {
   const std::vector<Point> points{{0, 0}, {1, 0}, {2, 0}, {0, 1}};
   CHECK_THROWS_AS(BackgroundMesh(points, {{0, 1, 4}}), Error);
