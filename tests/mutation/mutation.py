@@ -39,6 +39,7 @@ from table import Table, percent  # noqa: E402
 COPY = ROOT / "build/mutation"
 BUILD = COPY / "build/ci"  # where it would lie beside the sources: a compiler cache then knows what no fault has changed
 PLACES = 1 << 16
+MOST_CLOSE = 20  # tests: those that pass few other places than a fault's are likely to be about it
 FOLDERS = ["unit", "property", "protocol", "regression", "sim", "mutants", "cli", "digests", "c", "mpi", "python"]
 BYTES = 4 << 30
 NOTICED = pathlib.Path(__file__).resolve().with_name("noticed.json")  # what noticed each fault, by its number: what to try first anywhere
@@ -291,7 +292,9 @@ def try_fault(fault, usable, kept, options):
     first = [by_name[name] for name in kept.likely_killers(fault) if name in by_name]
     if options.first:
         first = [u for u in passing if re.search(options.first, u.name) and u not in first] + first
-    for some, unit in itertools.chain((([u], u) for u in first), batches([u for u in passing if u not in first])):
+    left = [u for u in passing if u not in first]
+    close = sorted(left, key=lambda u: len(u.places))[:MOST_CLOSE]
+    for some, unit in itertools.chain((([u], u) for u in first), batches(close), batches([u for u in left if u not in close])):
         if time.monotonic() - begin > options.budget:
             return Verdict(fault, "survived", f"{len(passing) - tried} tests not tried", tried, time.monotonic() - begin)
         outcome, said = unit.run(10 + (10 if len(some) == 1 else 4) * unit.seconds, DRIFTMESH_FAULT=str(fault.number))
