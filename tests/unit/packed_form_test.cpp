@@ -197,17 +197,21 @@ TEST_CASE("bytes that say what cannot be are refused with the reason, however we
   const SubsegmentId behind = sleeper.dormant->mesh.skeleton().mesh.subsegments.next_id();
   CHECK(refusal(sleeper, [&](auto& s) { s.dormant->unsplittable = {behind}; }) ==
         "an unsplittable subsegment does not exist");
-  const auto with_one_more = [](int which) {  // byte of the dormant mesh: of names, or of trees
-    return [which](SubdomainState& s) {
+  const auto with_bytes = [](int which, const auto& change) {  // of the names, or of the trees
+    return [which, change](SubdomainState& s) {
       int number = 0;
       DormantMesh::fields(s.dormant->mesh, [&](auto& field) {
         if constexpr (requires { field.push_back(std::byte{0}); })
-          if (number++ == which) field.push_back(std::byte{0});
+          if (number++ == which) change(field);
       });
     };
   };
-  CHECK(refusal(sleeper, with_one_more(0)) == "there are more names than there should be");
-  CHECK(refusal(sleeper, with_one_more(1)) == "there are more trees than roots");
+  const auto one_more = [](auto& bytes) { bytes.push_back(std::byte{0}); };
+  CHECK(refusal(sleeper, with_bytes(0, one_more)) == "there are more names than there should be");
+  CHECK(refusal(sleeper, with_bytes(1, one_more)) == "there are more trees than roots");
+  CHECK(refusal(sleeper, with_bytes(0, [](auto& names) { names.back() = std::byte{4}; })) == "a root has no ends");
+  CHECK(refusal(sleeper, with_bytes(1, [](auto& trees) { trees.assign(200, std::byte{255}); })) ==
+        "a subsegment is cut too deep");
   const auto swap_points = [](SubdomainState& s) {
     DormantMesh::fields(s.dormant->mesh, [](auto& field) {
       if constexpr (requires { field[0].x; })

@@ -102,6 +102,23 @@ TEST_CASE("coded triangles come back, and take no more bytes than they did") {
   CHECK(bytes <= 42'131);  // small meshes with many corners; it was as many when this was written
 }
 
+TEST_CASE("the border of what is not covered is known from both ends of each edge") {
+  const VertexId a{0}, b{1}, c{2}, top{3};
+  BorderGuess guess(4, kBorder);
+  const auto is_border = [&](const std::vector<VertexId>& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const VertexId v = ring[i], next = ring[(i + 1) % ring.size()];
+      CHECK(guess.after(v) == next);
+      CHECK(guess.before(next) == v);
+    }
+  };
+  is_border({a, b, c});
+  guess.cover(a, b, top);  // on no border yet
+  is_border({a, top, b, c});
+  guess.cover(top, b, c);  // which follows b
+  is_border({a, top, c});
+}
+
 TEST_CASE("triangles that no entrance leads to are an error") {
   Pslg two;
   two.points = {{0, 0}, {1, 0}, {0, 1}, {5, 0}, {6, 0}, {5, 1}};
