@@ -57,7 +57,11 @@ void check_same(const RunPlan& a, const RunPlan& b) {
 }  // namespace
 
 TEST_CASE("a plan is the same after a trip through bytes, and damaged bytes are rejected") {
-  RunPlan plan = plan_of(ell(), {25, {1e-3, false}, {0, 0.5}, nullptr}, 3, 9, Presplit::kOn);
+  Pslg domain = ell();
+  for (const Point& p : {Point{0.7, 0.8}, Point{0.1, 1.2}, Point{1.7, 0.2}, Point{1.8, 0.9}, Point{0.15, 1.85}})
+    domain.points.push_back(p);  // on no segment, so that subdomains list those that cuts avoid
+  RunPlan plan = plan_of(domain, {25, {1e-3, false}, {0, 0.5}, nullptr}, 3, 9, Presplit::kOn);
+  REQUIRE(!plan.decomposition.point_list.empty());
   plan.work = {
       .aggregation = 17, .slice = 77, .order = WorkOrder::kBacklog, .decoupled = true, .sleep = true, .threads = 5};
   plan.max_triangles = 12345;
