@@ -175,7 +175,8 @@ class Measurement {
     if (now.largest_cotangent > before.largest_cotangent) measures_.shapes.smallest_angle_triangle = number;
     if (now.smallest_cotangent < before.smallest_cotangent) measures_.shapes.largest_angle_triangle = number;
     if (now.largest_twice_area > before.largest_twice_area) measures_.shapes.largest_area_triangle = number;
-    if (!(shape.twice_area > 0 && shape.extremes().largest_cotangent <= sure_cotangent_)) check_small_angle(t);
+    if (max_ratio_ > 0 && !(shape.twice_area > 0 && shape.extremes().largest_cotangent <= sure_cotangent_))
+      check_small_angle(t);
     check_area(t, shape.twice_area);
   }
 
@@ -236,7 +237,7 @@ class Measurement {
   std::array<std::array<std::uint64_t, 180>, 3> angles_{};  // by corner, so that counts seldom wait for each other
   Measures measures_;
   double area_everywhere_;
-  long double max_ratio_ = 0;
+  long double max_ratio_ = 0;  // of circumradius to shortest edge; 0: any
   double sure_cotangent_ = std::numeric_limits<double>::infinity();
 };
 

@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <hdf5.h>
 
 #include <algorithm>
 #include <cmath>
@@ -66,6 +67,17 @@ std::vector<std::string> files_in(const std::filesystem::path& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) names.push_back(entry.path().filename());
   std::sort(names.begin(), names.end());
   return names;
+}
+
+/// What a .h5 has as tags of so many triangles, as other programs read them.
+std::vector<std::int32_t> cell_tags(const std::string& path, std::size_t triangles) {
+  std::vector<std::int32_t> tags(triangles);
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t set = H5Dopen(file, "/tags/cells", H5P_DEFAULT);
+  CHECK(H5Dread(set, H5T_NATIVE_INT32, H5S_ALL, H5S_ALL, H5P_DEFAULT, tags.data()) >= 0);
+  H5Dclose(set);
+  H5Fclose(file);
+  return tags;
 }
 
 /// The ranks of the plate on three ranks, each about to write its piece.
@@ -216,6 +228,8 @@ TEST_CASE("a line between two ranks is in their .h5 once, and regions are those 
   std::ranges::sort(markers);
   CHECK(markers == std::vector<std::int32_t>{1, 2, 3, 4, 9});
   CHECK(read.regions == std::vector<double>{0.25, 1.25});
+  const std::vector<std::int32_t> tags = cell_tags(path, 2);
+  CHECK(tags[0] != tags[1]);
 }
 
 TEST_CASE("if rank 0 cannot make the .h5, every rank says why") {

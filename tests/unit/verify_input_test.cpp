@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <string>
+#include <utility>
 
 #include "damaged_grid.hpp"
 
@@ -94,6 +96,24 @@ TEST_CASE("a wrong marker or attribute of a point") {
   CHECK(check(grid).accepted());
 }
 
+TEST_CASE("a mesh with another number of attributes than its input, though each of them has the same value") {
+  GridCase grid;
+  grid.input.attributes_per_point = 2;
+  grid.input.attributes.assign(2 * grid.input.points.size(), 0.5);
+  for (const int width : {1, 2, 3}) {
+    CAPTURE(width);
+    grid.mesh.attributes_per_point = width;
+    grid.mesh.attributes.assign(width * grid.mesh.points.size(), 0.5);
+    const VerifyReport report = check(grid);
+    CHECK(report.accepted() == (width == 2));
+    if (width == 2) continue;
+    CHECK_ONLY(report, Flaw::kWrongAttribute);
+    CHECK(report.findings.count(Flaw::kWrongAttribute) == 1);
+    CHECK(report.findings.messages(Flaw::kWrongAttribute)[0] ==
+          "points have " + std::to_string(width) + " attributes, expected 2");
+  }
+}
+
 TEST_CASE("a point without a marker may have that of a subsegment there, or 1") {
   GridCase grid;
   grid.input.point_markers.assign(grid.input.points.size(), 0);
@@ -153,6 +173,36 @@ TEST_CASE("a triangle outside the domain") {
   CHECK_HAS(verify(two, one, {}), Flaw::kOutsideFilled);
 }
 
+TEST_CASE("a chain along a segment that the input has outside the domain") {
+  Mesh mesh;
+  mesh.points = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
+  mesh.triangles = {{0, 1, 2}, {1, 3, 2}};
+  mesh.edges = {{0, 1, 0}, {1, 2, 0}, {2, 0, 0}, {1, 3, 0}, {3, 2, 0}};
+  Pslg input;
+  input.points = mesh.points;
+  input.segments = {{0, 1, 0}, {1, 2, 0}, {2, 0, 0}, {1, 3, 0}};  // the last has nothing on either side
+  const VerifyReport report = verify(mesh, input, {});
+  REQUIRE(report.findings.count(Flaw::kUnknownSubsegment) == 2);
+  const auto& messages = report.findings.messages(Flaw::kUnknownSubsegment);
+  CHECK(messages[0].ends_with("from point 1 at (1, 0) to point 3 at (1, 1) is an input segment outside the domain"));
+  CHECK(messages[1].ends_with("from point 2 at (0, 1) to point 3 at (1, 1) joins points that no input segment joins"));
+}
+
+TEST_CASE("a second chain between the ends of a segment") {
+  Mesh mesh;
+  mesh.points = {{0, 0}, {2, 0}, {1, 2}, {1, 0.5}};
+  mesh.triangles = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  mesh.edges = {{0, 1, 0}, {1, 2, 0}, {2, 0, 0}, {0, 3, 0}, {3, 1, 0}};
+  Pslg input;
+  input.points = {{0, 0}, {2, 0}, {1, 2}};
+  input.segments = {{0, 1, 0}, {1, 2, 0}, {2, 0, 0}};
+  CHECK(verify(mesh, {}).accepted());
+  const VerifyReport report = verify(mesh, input, {});
+  CHECK_ONLY(report, Flaw::kUnknownSubsegment);
+  CHECK(report.findings.messages(Flaw::kUnknownSubsegment)[0] ==
+        "the chain of 2 subsegments from point 0 at (0, 0) to point 1 at (2, 0) doubles another one");
+}
+
 TEST_CASE("an input point that is not a vertex") {
   GridCase grid;
   grid.input.points.push_back({1.5, 6.5});
@@ -173,6 +223,25 @@ TEST_CASE("a chain that leaves its segment") {
   CHECK(check(grid, 0, 0).findings.count(Flaw::kOffSegment) == 0);
 }
 
+TEST_CASE("points on a segment out of order, or beyond its ends") {
+  const auto off_segment = [](const GridCase& grid) {
+    const VerifyReport report = check(grid, 0, 0);
+    INFO(all_messages(report));
+    REQUIRE(report.findings.count(Flaw::kOffSegment) == 1);
+    CHECK(report.findings.messages(Flaw::kOffSegment)[0].find(" is 0 off its line") != std::string::npos);
+    return report.findings.messages(Flaw::kOffSegment)[0];
+  };
+  GridCase grid;
+  std::swap(grid.mesh.points[grid.at(6, 9)], grid.mesh.points[grid.at(7, 9)]);
+  CHECK(off_segment(grid).ends_with(" and 6 of 12 along it, after 7"));
+  grid = GridCase();
+  grid.mesh.points[grid.at(1, 9)].x = -1;
+  CHECK(off_segment(grid).ends_with(" and -1 of 12 along it, after 0"));
+  grid = GridCase();
+  grid.mesh.points[grid.at(11, 9)].x = 13;
+  CHECK(off_segment(grid).ends_with(" and 13 of 12 along it, after 10"));
+}
+
 TEST_CASE("bounds") {
   const GridCase grid;
   CHECK_ONLY(check(grid, 45.1), Flaw::kSmallAngle);
@@ -191,6 +260,20 @@ TEST_CASE("the area bound of a region") {
   VerifyOptions options;
   options.plain.region_areas = false;
   CHECK(verify(grid.mesh, grid.input, options).accepted());
+}
+
+TEST_CASE("points and segments that the input lists twice count once") {
+  GridCase grid;
+  const auto count = static_cast<std::int32_t>(grid.input.points.size());
+  for (const Pslg::Segment& s : GridCase().input.segments) {
+    grid.input.segments.push_back({s.b, s.a, s.marker + 10});  // the first marker is that of the segment
+    grid.input.segments.push_back({s.a + count, s.b + count, s.marker});
+  }
+  for (const Point& p : GridCase().input.points) grid.input.points.push_back(p);
+  const VerifyReport report = check(grid);
+  INFO(all_messages(report));
+  CHECK(report.accepted());
+  CHECK(report.input_area == 128);
 }
 
 TEST_CASE("an input that is not planar") {

@@ -1,21 +1,28 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <numbers>
 #include <random>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "driftmesh/size_field.hpp"
+#include "geometry/predicates.hpp"
 #include "verify/across_check.hpp"
 #include "verify/edge_check.hpp"
 #include "verify/number_runs.hpp"
+#include "verify/piece_check.hpp"
 #include "verify/polygons_check.hpp"
+#include "verify/quality.hpp"
 #include "verify/size_check.hpp"
 #include "verify/step_check.hpp"
+#include "verify/verify.hpp"
 
 // What parts of the verifier count and measure, each by itself, where the answer is known.
 
@@ -90,6 +97,87 @@ TEST_CASE("the fewest layers count, wherever they are") {
     std::size_t flaws = 0;
     CHECK(across(mesh, 3, flaws).fewest == 1);
   }
+}
+
+TEST_CASE("channels are checked in spite of small angles and large areas, and of no other flaw") {
+  Mesh mesh = grid(24, 2);
+  VerifyOptions options;
+  options.across.layers = 3;
+  const auto expect = [&](Flaw other) {
+    const VerifyReport report = verify(mesh, options);
+    CHECK(report.findings.count(other) > 0);
+    CHECK(report.findings.count(Flaw::kFewAcross) > 0);
+    CHECK(report.findings.total() == report.findings.count(other) + report.findings.count(Flaw::kFewAcross));
+    CHECK(report.across.fewest == 2);
+  };
+  options.min_angle = 46;
+  expect(Flaw::kSmallAngle);
+  options.min_angle = 0;
+  options.plain.area = 0.124;  // all have 1/8
+  expect(Flaw::kLargeArea);
+  mesh.triangles.push_back(mesh.triangles[0]);
+  CHECK(verify(mesh, options).across.crossings == 0);
+}
+
+TEST_CASE("extremes name their triangles, in whatever order these are") {
+  const std::array<std::array<Point, 3>, 4> shapes{{{Point{0, 0}, {1, 0}, {1, 1}},
+                                                    {Point{0, 0}, {4, 0}, {4, 1}},    // the smallest angle
+                                                    {Point{0, 0}, {2, 0}, {1, 0.5}},  // the largest
+                                                    {Point{0, 0}, {6, 0}, {3, 5}}}};  // the largest area
+  std::array<std::size_t, 4> order{0, 1, 2, 3};
+  do {
+    Mesh mesh;
+    for (const std::size_t shape : order) {
+      const auto first = static_cast<std::int32_t>(mesh.points.size());
+      mesh.points.insert(mesh.points.end(), shapes[shape].begin(), shapes[shape].end());
+      mesh.triangles.push_back({first, first + 1, first + 2});
+    }
+    const auto place = [&](std::size_t shape) { return std::ranges::find(order, shape) - order.begin(); };
+    const Quality quality = measure(NamedMesh(mesh), {}, 1).quality();
+    CHECK(quality.smallest_angle_triangle == place(1));
+    CHECK(quality.largest_angle_triangle == place(2));
+    CHECK(quality.largest_area_triangle == place(3));
+    CHECK(quality.smallest_angle == doctest::Approx(std::atan2(1, 4) * 180 / std::numbers::pi));
+    CHECK(quality.largest_angle == doctest::Approx(2 * std::atan2(1, 0.5) * 180 / std::numbers::pi));
+    CHECK(quality.largest_area == 15);
+    CHECK(quality.smallest_area == 0.5);
+  } while (std::ranges::next_permutation(order).found);
+}
+
+TEST_CASE("a triangle is excused where doubles have nothing between its corners, and nowhere else") {
+  // One with legs of this length amid a large one: its area is too large, as are those of the six triangles around it.
+  const auto excused = [](double place, double leg) {
+    Mesh mesh;
+    const double middle = 1.25 * place;
+    mesh.points = {{place, place},   {1.75 * place, place},  {place, 1.75 * place},
+                   {middle, middle}, {middle + leg, middle}, {middle, middle + leg}};
+    mesh.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 5, 4}, {2, 3, 5}, {2, 0, 3}, {0, 4, 3}, {3, 4, 5}};
+    VerifyOptions options;
+    options.plain.area = 0x1p-110;
+    options.check_delaunay = false;
+    const VerifyReport report = verify(mesh, options);
+    const std::uint64_t count = report.quality.exceptions[ExceptionReason::kNoRoom].count;
+    CHECK(report.findings.total() == 7 - count);
+    CHECK(report.findings.count(Flaw::kLargeArea) == 7 - count);
+    return count;
+  };
+  CHECK(excused(1, 0x1p-52) == 1);  // the spacing of doubles from 1 to 2
+  CHECK(excused(1, 0x1p-51) == 0);
+  CHECK(excused(2, 0x1p-51) == 1);
+  CHECK(excused(2, 0x1p-50) == 0);
+}
+
+TEST_CASE("points of a piece that have the same number are left to the check of the whole") {
+  Mesh piece = grid(3, 3);  // four points inside: 5, 6, 9 and 10
+  for (std::int64_t n = 0; n < 16; ++n) piece.numbers.push_back(n);
+  CHECK(check_piece(NamedMesh(piece, 0), {}).used_inside == 4);
+  piece.numbers[10] = 5;
+  const PieceReport report = check_piece(NamedMesh(piece, 0), {});
+  CHECK(report.used_inside == 2);
+  std::vector<std::int64_t> left;
+  for (const std::int32_t v : report.frame.marked()) left.push_back(report.frame.mesh.numbers[v]);
+  CHECK(left.size() == 14);
+  CHECK(std::ranges::count(left, 5) == 2);
 }
 
 TEST_CASE("steps that are not allowed are counted, and the worst are listed, worst first") {
@@ -188,4 +276,16 @@ TEST_CASE("polygons with other regions are other polygons") {
   Pslg other = one;
   other.regions[0].attribute = 8;
   CHECK_FALSE(same_polygons(one, other));
+}
+
+TEST_CASE("a triangle whose area is lost in rounding has no small angle if no angle is asked for") {
+  // Its corners are almost on a line, and counterclockwise by less than doubles tell.
+  Mesh mesh;
+  mesh.points = {{0.1, 0.3}, {2.2700000000000005, 1.23}, {0.24000000000000002, 0.36}, {-0.76, 5.36}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {2, 1, 3}};
+  REQUIRE(orient2d(mesh.points[0], mesh.points[1], mesh.points[2]) > 0);
+  VerifyOptions options;
+  CHECK(verify(mesh, options).accepted());
+  options.min_angle = 0.001;
+  CHECK(verify(mesh, options).findings.count(Flaw::kSmallAngle) == 1);
 }

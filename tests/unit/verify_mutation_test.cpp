@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include "damaged_grid.hpp"
 #include "verify/report_text.hpp"
@@ -77,6 +79,16 @@ TEST_CASE("each point of the boundary moved onto each other one") {
       CHECK_HAS(check(moved), Flaw::kDuplicatePoint);
       CHECK_HAS(verify(moved.mesh, {}), Flaw::kDuplicatePoint);
     }
+}
+
+TEST_CASE("a point of the inside moved onto another one") {
+  const GridCase grid;
+  for (const auto& [from, to] : {std::pair(grid.at(2, 2), grid.at(3, 2)), std::pair(grid.at(10, 5), grid.at(2, 11))}) {
+    GridCase moved;
+    moved.mesh.points[from] = grid.mesh.points[to];
+    CHECK(check(moved).findings.count(Flaw::kDuplicatePoint) == 1);
+    CHECK(verify(moved.mesh, {}).findings.count(Flaw::kDuplicatePoint) == 1);
+  }
 }
 
 TEST_CASE("a triangle far beyond the domain does not take forever where sizes are asked for") {
@@ -179,6 +191,12 @@ TEST_CASE("a point that no triangle uses is counted, but is not a flaw") {
   add_point(grid.mesh, {1.5, 1.25});
   CHECK(check(grid).accepted());
   CHECK(check(grid).unused_points == 1);
+  add_point(grid.mesh, {0, 0});  // nor is it where another point is
+  add_point(grid.mesh, {2, 2});
+  CHECK(check(grid).accepted());
+  CHECK(check(grid).unused_points == 3);
+  grid.mesh.regions[17] = 20;
+  CHECK_ONLY(check(grid), Flaw::kWrongRegion);
 }
 
 TEST_CASE("a vertex in an edge: a T-junction") {
@@ -247,6 +265,37 @@ TEST_CASE("a closed ring and another fan at one vertex") {
   add_triangle(grid.mesh, {hub, p, q}, 10);
   grid.mesh.edges.insert(grid.mesh.edges.end(), {{hub, p, 1}, {p, q, 1}, {q, hub, 1}});
   CHECK_HAS(check(grid), Flaw::kTangledVertex);
+}
+
+TEST_CASE("interfaces are counted where triangles are far from cocircular") {
+  Mesh mesh;
+  mesh.points = {{0, 0}, {2, 0}, {1, 2}, {-1, 2}, {-2, 0}, {-1, -2}, {1, -2}};
+  for (std::int32_t i = 0; i < 6; ++i) mesh.triangles.push_back({0, i + 1, (i + 1) % 6 + 1});
+  mesh.subdomains = {0, 0, 0, 1, 1, 2};
+  mesh.ranks = {7, 7, 7, 7, 7, 8};
+  const VerifyReport report = verify(mesh, {});
+  CHECK(report.accepted());
+  CHECK(report.subdomains == 3);
+  CHECK(report.interfaces == 3);
+  CHECK(report.interface_edges == 3);
+  CHECK(report.interface_edges_not_delaunay == 0);
+  CHECK(report.rank_interface_edges == 2);
+}
+
+TEST_CASE("each thread tells of the flaws inside its part") {
+  const auto flaws = [](const std::vector<std::pair<int, int>>& moved, std::size_t threads) {
+    GridCase grid;
+    for (const auto& [x, y] : moved) grid.mesh.points[grid.at(x, y)] = {x + 0.25, y + 0.125};
+    const VerifyReport report = verify(grid.mesh, {.threads = threads});
+    CHECK_ONLY(report, Flaw::kNotDelaunay);
+    return report.findings.count(Flaw::kNotDelaunay);
+  };
+  const std::uint64_t here = flaws({{2, 2}}, 1);  // all is the same around (10, 10), near the end of the points
+  for (const std::size_t threads : {1, 2, 3}) {
+    CHECK(flaws({{2, 2}}, threads) == here);
+    CHECK(flaws({{10, 10}}, threads) == here);
+    CHECK(flaws({{2, 2}, {10, 10}}, threads) == 2 * here);
+  }
 }
 
 TEST_CASE("the report does not depend on the number of threads") {

@@ -277,6 +277,25 @@ TEST_CASE("more suspects than are kept are found on a second look") {
   }
 }
 
+TEST_CASE("regions are compared only if every piece lists them") {
+  const GridCase grid;
+  std::mt19937 random(5);
+  const std::size_t half = grid.mesh.triangles.size() / 2;
+  std::vector<Mesh> pieces = cut(
+      grid.mesh, 2, [&](std::size_t t) { return t / half; }, random);
+  pieces[0].regions[0] = pieces[1].regions[0] = 77;
+  const VerifyReport report = verify_pieces(pieces, &grid.input, {});
+  CHECK_ONLY(report, Flaw::kWrongRegion);
+  CHECK(report.findings.count(Flaw::kWrongRegion) == 2);
+  CHECK(report.regions_listed);
+  for (const std::size_t k : {0, 1}) {
+    std::vector<Mesh> without = pieces;
+    without[k].regions.clear();
+    CHECK(verify_pieces(without, &grid.input, {}).accepted());
+    CHECK(!verify_pieces(without, &grid.input, {}).regions_listed);
+  }
+}
+
 TEST_CASE("threads ask a field of sizes at once") {
   const Mesh mesh = GridCase().mesh;
   struct Field final : SizeField {

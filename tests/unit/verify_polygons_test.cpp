@@ -20,11 +20,12 @@
 
 using namespace driftmesh;
 using namespace driftmesh::oracles;
+using driftmesh::testing::raw_rings;
 
 namespace {
 
 Pslg given(const std::vector<GridPolygon>& polygons) {
-  return driftmesh::testing::raw_rings(RandomPolygons{polygons, {}, 1});
+  return raw_rings(RandomPolygons{polygons, {}, 1});
 }
 
 Domain domain_of(const Pslg& input, const std::vector<Point>& places = {}) {
@@ -68,7 +69,7 @@ TEST_CASE("areas of random polygons and of their regions are those of the oracle
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
     const RandomPolygons set = make_random_polygons(seed);
     const PolygonAreas expected = covered_areas(set.polygons);
-    const Domain domain = domain_of(driftmesh::testing::raw_rings(set));
+    const Domain domain = domain_of(raw_rings(set));
     const double square = set.unit * set.unit, tolerance = domain.border_tolerance() + 1e-12 * domain.area();
     CAPTURE(seed);
     CHECK(std::fabs(domain.area() - static_cast<double>(expected.total) * square) <= tolerance);
@@ -160,6 +161,8 @@ TEST_CASE("polygons that were snapped or simplified are judged by areas, within 
   CHECK(wrong(raw, 0.01) == 0);
   raw = raw_rings(RandomPolygons{{{{rectangle(0, 0, 200, 200)}, 1}}, {}, 0.01});  // region 2 is missing
   CHECK(wrong(raw, 0.01) == 2);
+  raw = raw_rings(RandomPolygons{{{{rectangle(0, 0, 100, 200)}, 1}, {{rectangle(100, 0, 200, 200)}, 3}}, {}, 0.01});
+  CHECK(wrong(raw, 0.01) == 2);  // the one has no region 2, the other no region 3
 }
 
 TEST_CASE("a mesh is judged by the verifier's own holes between nested rings") {
@@ -190,6 +193,21 @@ TEST_CASE("points in the same place make no other polygons") {
   other = raw;
   std::swap(other.polygons[0], other.polygons[1]);
   CHECK(!same_polygons(other, input));
+}
+
+TEST_CASE("corners that repeat the one before them make no other polygons") {
+  const Pslg input = halves_as_polygons();
+  Pslg repeated = input;
+  repeated.polygons[0].rings[0] = {0, 0, 1, 4, 4, 4, 5, 0};
+  CHECK(same_polygons(repeated, input));
+  const std::optional<Pslg> rings = rings_alone(repeated);
+  REQUIRE(rings);
+  CHECK(rings->segments.size() == 7);
+  repeated.points.push_back(input.points[3]);  // the same by another number
+  repeated.polygons[1].rings[0] = {1, 2, 3, 6, 4};
+  CHECK(same_polygons(repeated, input));
+  repeated.polygons[1].rings[0] = {1, 2, 3, 5, 4};
+  CHECK(!same_polygons(repeated, input));
 }
 
 TEST_CASE("an unknown point, place or region of polygons is no crash") {
