@@ -6,7 +6,6 @@
 #include <set>
 #include <span>
 #include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
 #include "base/narrow.hpp"
@@ -114,7 +113,6 @@ class Planarizer {
   void make_planar();
   void add_hull();
   void drop_collapsed();
-  void retract_rings();
   void keep_once(RepairItem& item);
   void erase_dropped();
   void find_splits();
@@ -469,24 +467,15 @@ void Planarizer::drop_collapsed() {
          [&] { return name(pieces_[i]) + " from " + name(segments[i].a) + " to " + name(segments[i].b); });
     pieces_[i].origin = kDropped;
   }
-  retract_rings();
   erase_dropped();
 }
 
-// A piece with a free end is walked there and back: its rings turn before it.
-void Planarizer::retract_rings() {
-  std::unordered_set<std::uint64_t> gone;
-  for (const Piece& piece : pieces_)
-    if (piece.origin == kDropped) gone.insert(pair_key(piece.segment.a, piece.segment.b));
-  if (gone.empty()) return;
-  for (Pslg::Polygon& polygon : pslg_.polygons)
-    for (Pslg::Ring& ring : polygon.rings) retract(ring, gone);
-}
-
-// Points whose segments snapping has taken, to the last, go as well.
+// Points whose segments snapping has taken, to the last, go as well. With the free end of a piece, rings that walked
+// the piece there and back turn before it.
 std::vector<bool> Planarizer::bare_points() const {
   std::vector<bool> bare(points().size(), false);
   if (options_.snap == 0) return bare;
+  for (std::size_t v = 0; v < bare.size(); ++v) bare[v] = report_.original_point[v] < 0;  // crossings
   for (const Pslg::Segment& s : pslg_.segments)
     for (const std::int32_t end : {s.a, s.b}) bare[to_index(welded_[end])] = true;
   for (const Piece& piece : pieces_)

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <fstream>
 #include <string>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -18,7 +17,6 @@
 #include "pslg/enclosing_ring.hpp"
 #include "pslg/names.hpp"
 #include "pslg/open_boundary.hpp"
-#include "pslg/pair_key.hpp"
 #include "pslg/poly_file.hpp"
 #include "pslg/polygons.hpp"
 #include "pslg/polylines.hpp"
@@ -132,7 +130,7 @@ TEST_CASE("lines end where something changes") {
   CHECK(lines_of(chain) == Lines{{0, 1, 2, 3, 4, 5}});
 }
 
-TEST_CASE("rings lose repetitions, and edges that are gone") {
+TEST_CASE("rings lose repetitions") {
   const auto dropped = [](Pslg::Ring ring) {
     drop_repetitions(ring);
     return ring;
@@ -140,18 +138,6 @@ TEST_CASE("rings lose repetitions, and edges that are gone") {
   CHECK(dropped({1, 1, 2, 3, 3, 1}) == Pslg::Ring{1, 2, 3});
   CHECK(dropped({4, 4, 4}).empty());
   CHECK(dropped({}).empty());
-  const auto retracted = [](Pslg::Ring ring, const std::vector<std::pair<std::int32_t, std::int32_t>>& gone) {
-    std::unordered_set<std::uint64_t> keys;
-    for (const auto& [a, b] : gone) keys.insert(pair_key(a, b));
-    retract(ring, keys);
-    if (!ring.empty()) std::rotate(ring.begin(), std::ranges::min_element(ring), ring.end());
-    return ring;
-  };
-  CHECK(retracted({0, 1, 4, 1, 2, 3}, {{1, 4}}) == Pslg::Ring{0, 1, 2, 3});
-  CHECK(retracted({4, 1, 2, 3, 0, 1}, {{1, 4}}) == Pslg::Ring{0, 1, 2, 3});
-  CHECK(retracted({0, 1, 4, 5, 4, 1, 2, 3}, {{1, 4}, {4, 5}}) == Pslg::Ring{0, 1, 2, 3});
-  CHECK(retracted({0, 1, 4, 5, 4, 1, 2, 3}, {{4, 5}}) == Pslg::Ring{0, 1, 4, 1, 2, 3});  // that edge stays
-  CHECK(retracted({0, 1, 2, 1}, {{0, 1}, {1, 2}}).empty());
 }
 
 TEST_CASE("open ends are those of one segment, and a gap is none that a segment spans") {

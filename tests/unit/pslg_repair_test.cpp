@@ -285,3 +285,20 @@ TEST_CASE("coordinates that are too small for exact midpoints are rounded, and r
   CHECK(report.summary().find("rounded") != std::string::npos);
   CHECK_FALSE(repair(pslg).changed());
 }
+
+TEST_CASE("where snapping closes a spike of a polygon, its ring turns before it") {
+  Pslg pslg;
+  pslg.points = {{0, 0}, {4, 0}, {4, 2}, {5, 2}, {7, 2}, {5, 2.001}, {4, 2.001}, {4, 4}, {0, 4}};
+  Pslg::Ring ring;
+  for (std::int32_t i = 0; i < 9; ++i) {
+    pslg.segments.push_back({i, (i + 1) % 9, 1});
+    ring.push_back(i);
+  }
+  pslg.polygons = {{.rings = {ring}, .region = -1}};
+  const RepairReport report = repair(pslg, "input", {.snap = 0.01});
+  CHECK(report.collapsed.count == 2);  // pieces: to the spike's tip, and to where it is bent
+  REQUIRE(pslg.polygons.size() == 1);
+  std::vector<Point> corners;
+  for (const std::int32_t v : pslg.polygons[0].rings[0]) corners.push_back(pslg.points[static_cast<std::size_t>(v)]);
+  CHECK(corners == std::vector<Point>{{0, 0}, {4, 0}, {4, 2}, {4, 4}, {0, 4}});
+}
