@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "patch/area.hpp"
+#include "unit_squares.hpp"
 
 // The triangles that an area overlaps, against areas of what is left of its rings within each of them.
 
 using namespace driftmesh;
+using namespace driftmesh::testing;
 
 namespace {
 
@@ -52,19 +54,13 @@ double shared_area(const Mesh& mesh, std::size_t t, const Rings& rings) {
   return sum;
 }
 
-/// Squares of a grid, each of two triangles.
+/// Squares in three regions, one beside the other.
 Mesh grid() {
-  constexpr std::int32_t kSide = 9;
-  Mesh mesh;
-  for (std::int32_t y = 0; y <= kSide; ++y)
-    for (std::int32_t x = 0; x <= kSide; ++x) mesh.points.push_back({static_cast<double>(x), static_cast<double>(y)});
-  for (std::int32_t y = 0; y < kSide; ++y)
-    for (std::int32_t x = 0; x < kSide; ++x) {
-      const std::int32_t a = y * (kSide + 1) + x, b = a + kSide + 1;
-      mesh.triangles.push_back({a, a + 1, b + 1});
-      mesh.triangles.push_back({a, b + 1, b});
-      for (int k = 0; k < 2; ++k) mesh.regions.push_back(x < 3 ? 1 : x < 6 ? 2 : 3);
-    }
+  Mesh mesh = unit_squares(9, 9);
+  for (const auto& corners : mesh.triangles) {
+    const double x = mesh.points[static_cast<std::size_t>(corners[0])].x;
+    mesh.regions.push_back(x < 3 ? 1 : x < 6 ? 2 : 3);
+  }
   return mesh;
 }
 
