@@ -45,21 +45,18 @@ void Cutter::cut_all(std::span<const PieceId> pieces) {
 void Cutter::give_up(PieceId piece) {
   spare_ += pieces_[piece].parts - 1;
   pieces_[piece].parts = 1;
-  solid_.resize(pieces_.size(), false);
-  solid_[piece] = true;
 }
 
-/// The heaviest subdomains that can be cut take over the parts that a piece could not be cut into.
+/// The heaviest subdomains that can be cut in two take over the parts that a piece could not be cut into.
 void Cutter::spend_spare_parts() {
   if (spare_ == 0) return;
-  solid_.resize(pieces_.size(), false);
   const auto lighter = [this](PieceId one, PieceId other) {
     const double work = pieces_[one].work, of_other = pieces_[other].work;
     return work != of_other ? work < of_other : one > other;
   };
   std::priority_queue heaviest(lighter, std::vector<PieceId>());
   for (const PieceId i : ids_of(pieces_))
-    if (pieces_[i].parts == 1 && !solid_[i]) heaviest.push(i);
+    if (pieces_[i].parts == 1) heaviest.push(i);
   while (spare_ > 0 && !heaviest.empty()) {
     const PieceId piece = heaviest.top();
     heaviest.pop();

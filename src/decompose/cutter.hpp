@@ -50,7 +50,6 @@ class Cutter {
   double skew_;
   std::mt19937_64 random_;
   std::map<std::int32_t, std::vector<PieceId>, std::greater<>> queue_;  // pieces by their number of parts
-  IdVector<PieceId, bool> solid_;                                       // pieces for which no cut was found
   std::int32_t spare_ = 0;
   CutFinder finder_;
   Loop loop_;
