@@ -4,11 +4,14 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "adapt/agree.hpp"
 #include "adapt/demand.hpp"
+#include "adapt/fit_lengths.hpp"
 #include "adapt/granularity.hpp"
+#include "adapt/linear_lengths.hpp"
 #include "decompose/presplit.hpp"
 #include "mesh/cdt.hpp"
 
@@ -59,6 +62,58 @@ double length_for(double piece) {
 
 using Paths = std::vector<dyadic::Path>;
 
+/// Half of a square of side 1, with lengths at its corners.
+struct HalfSquare {
+  HalfSquare(double at_origin, double at_right, double at_top) {
+    Pslg pslg;
+    pslg.points = {{0, 0}, {1, 0}, {0, 1}};
+    pslg.segments = {{0, 1, 1}, {1, 2, 1}, {2, 0, 1}};
+    mesh = triangulate(pslg);
+    for (const Point& p : mesh.points)
+      lengths.push_back(p == Point{1, 0} ? at_right : p == Point{0, 1} ? at_top : at_origin);
+  }
+
+  Triangulation mesh;
+  Lengths lengths;
+};
+
+/// Asks for a length everywhere, and for as much less between corners of a triangle.
+class Dented final : public SizeField {
+ public:
+  Dented(double length, double dent) : length_(length), dent_(dent) {}
+  [[nodiscard]] double edge_length(const Point&) const override { return length_; }
+  [[nodiscard]] bool falls_below(const std::array<Point, 3>&, double length) const override {
+    return length_ - dent_ < length;
+  }
+  [[nodiscard]] double least_between(const std::array<Point, 3>&, double at_corners) const override {
+    return at_corners - dent_;
+  }
+
+ private:
+  double length_, dent_;
+};
+
+/// Subdomains side by side, each with a border of length 1 to the next.
+Decomposition row_of(std::size_t count) {
+  Decomposition d;
+  d.subdomains.resize(count);
+  for (std::size_t i = 0; i <= count; ++i) {
+    d.points.push_back({static_cast<double>(i), 0});
+    d.points.push_back({static_cast<double>(i), 1});
+    if (i == 0 || i == count) continue;
+    Decomposition::Root root;
+    root.a = static_cast<GlobalPointId>(2 * i);
+    root.b = static_cast<GlobalPointId>(2 * i + 1);
+    root.left = static_cast<SubdomainId>(i - 1);
+    root.right = static_cast<SubdomainId>(i);
+    root.separator = true;
+    d.roots.push_back(root);
+  }
+  return d;
+}
+
+constexpr std::array<Point, 3> kSmallTriangle{{{0.2, 0.2}, {0.3, 0.2}, {0.2, 0.3}}};
+
 }  // namespace
 
 TEST_CASE("an interface is cut until its pieces suit the lengths along it") {
@@ -95,4 +150,55 @@ TEST_CASE("bounds on areas count on interfaces, too") {
 TEST_CASE("points of both, and those of one alone") {
   CHECK(united({1, 3, 6}, {1, 2}) == Paths{1, 2, 3, 6});
   CHECK(without({1, 3, 6}, {1, 2}) == Paths{3, 6});
+}
+
+TEST_CASE("lengths between corners are bounded by how steep they are, in whatever direction") {
+  const double longest = 0.1 * std::sqrt(2.0), farthest = longest / std::sqrt(3.0);  // from the nearest corner
+  for (const auto& [right, top] : {std::pair{2.0, 1.0}, {1.0, 2.0}}) {
+    const HalfSquare half(1, right, top);
+    const LinearLengths field(half.mesh, half.lengths);
+    CHECK(field.least_between(kSmallTriangle, 1.2) == doctest::Approx(1.2 - farthest).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("a corner without a bound does not count at the others, nor on the edge between them") {
+  const HalfSquare half(1, 3, kInfinity);
+  const LinearLengths field(half.mesh, half.lengths);
+  CHECK(field.edge_length({0, 0}) == 1);
+  CHECK(field.edge_length({1, 0}) == 3);
+  CHECK(field.edge_length({0.5, 0}) == 2);
+}
+
+TEST_CASE("a field that is scaled to fit is so between points, and has its shortest length there") {
+  const Dented field(1, 0.8);
+  AdaptiveOptions options;
+  FittedField fitted(field, options);
+  fitted.scale(2);
+  CHECK(fitted.edge_length({0, 0}) == 2);
+  CHECK(fitted.least_between(kSmallTriangle, 2) == doctest::Approx(0.4));
+  options.shortest = 0.5;
+  CHECK(fitted.least_between(kSmallTriangle, 2) == doctest::Approx(1));
+}
+
+TEST_CASE("a triangle that suits the lengths at its corners may be too large for those between") {
+  const HalfSquare half(2, 2, 2);
+  CHECK_FALSE(demand_of(half.mesh, {}, half.lengths).too_large);
+  const Dented flat(2, 0), dented(2, 1.9);
+  CHECK_FALSE(demand_of(half.mesh, {}, half.lengths, &flat).too_large);
+  CHECK(demand_of(half.mesh, {}, half.lengths, &dented).too_large);
+}
+
+TEST_CASE("light subdomains are joined with neighbors if enough of them go") {
+  using Asked = std::vector<std::pair<std::int32_t, double>>;
+  const auto groups = [](std::size_t count, const Asked& other) {
+    IdVector<SubdomainId, double> asked(count, 1000.0);
+    for (const auto& [s, triangles] : other) asked[SubdomainId{s}] = triangles;
+    return light_groups(row_of(count), asked, static_cast<std::int32_t>(count));
+  };
+  CHECK(groups(16, {}).empty());
+  CHECK(groups(16, {{3, 10}, {4, 500}}).empty());  // one of 16 is not worth it, though it has where to go
+  const auto pair = groups(16, {{3, 10}, {4, 10}});
+  REQUIRE(pair.size() == 16);
+  for (const SubdomainId s : ids_of(pair)) CHECK(pair[s] == (to_int(s) == 4 ? SubdomainId{3} : s));
+  CHECK(groups(48, {{3, 10}, {4, 10}, {20, 10}, {30, 10}}).empty());  // of four light ones, one would go
 }
