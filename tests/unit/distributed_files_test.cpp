@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <span>
 #include <sstream>
@@ -11,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "distributed/census.hpp"
 #include "distributed/piece_series.hpp"
 #include "distributed/write_distributed.hpp"
 #include "distributed/write_together.hpp"
@@ -18,6 +20,7 @@
 #include "io/pvtu_format.hpp"
 #include "mesh/digest.hpp"
 #include "mesh/merge_pieces.hpp"
+#include "migration/subdomain.hpp"
 #include "support/adversarial_network.hpp"
 #include "support/damage.hpp"
 #include "support/distributed_case.hpp"
@@ -317,6 +320,33 @@ TEST_CASE("a series has a piece for every five million triangles that are expect
     for (auto& subdomain : decomposition.subdomains) subdomain.predicted = predicted;
     CHECK(PieceSeries::count(decomposition) == pieces);
   }
+}
+
+TEST_CASE("a piece of a series knows of how many it is one") {
+  DistributedCase c = plate(4);
+  SubdomainContext context{&c.decomposition, c.bounds, true};
+  std::map<SubdomainId, Subdomain> subdomains;
+  std::vector<SubdomainCensus> census;
+  std::vector<SplitPoint<GlobalRootId>> said;
+  for (const SubdomainId s : ids_of(c.decomposition.subdomains)) {
+    Subdomain& subdomain = subdomains.emplace(s, Subdomain(s, context)).first->second;
+    while (subdomain.active()) subdomain.work(10'000, said);
+    census.push_back(census_of(c.decomposition, s, subdomain.mesh()));
+  }
+  REQUIRE(said.empty());  // interfaces were split before
+  for (auto& subdomain : c.decomposition.subdomains) subdomain.predicted = 3e6;
+  const PieceSeries series(c.decomposition, subdomains, census, c.input);
+  REQUIRE(series.size() == 2);
+  std::size_t triangles = 0;
+  for (const Rank k : first_ids<Rank>(2)) {
+    const DistributedPiece piece = series.piece(k);
+    CHECK(piece.rank == k);
+    CHECK(piece.ranks == 2);
+    triangles += piece.mesh.triangles.size();
+  }
+  std::size_t all = 0;
+  for (const auto& one : subdomains) all += one.second.mesh().mesh.live_triangles();
+  CHECK(triangles == all);
 }
 
 TEST_CASE("what all ranks write is in the coordinates that are asked for") {

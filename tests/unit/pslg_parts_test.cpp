@@ -14,6 +14,7 @@
 #include "driftmesh/repair.hpp"
 #include "geometry/predicates.hpp"
 #include "pslg/closeness.hpp"
+#include "pslg/contour.hpp"
 #include "pslg/enclosing_ring.hpp"
 #include "pslg/names.hpp"
 #include "pslg/open_boundary.hpp"
@@ -77,6 +78,25 @@ TEST_CASE("crossings are coordinates that an input can have") {
   CHECK(in_coordinate_range(crossing.y));
   CHECK(crossing.x > kTiny);
   CHECK(crossing_point({0, 0}, {4, 4}, {0, 4}, {4, 0}) == Point{2, 2});
+  const Point between =
+      crossing_point({0, 0}, {3 * kInputGrid, 0}, {kInputGrid, kInputGrid}, {2 * kInputGrid, -kInputGrid});
+  CHECK(between.x == rounded_to(between.x, kInputGrid));
+  CHECK(between.y == 0);
+}
+
+TEST_CASE("the frame of a grid is land, however large islands have to be") {
+  Grid grid{6, 6, 1, std::vector<double>(36, -1)};
+  grid.values[grid.index(2, 2)] = 1;  // an island of one point
+  keep_main_basin(grid, 100);
+  for (std::size_t i = 0; i < 36; ++i) CHECK(grid.negative(i) == !grid.on_frame(i));
+}
+
+TEST_CASE("a contour is closed, and encloses an area") {
+  ContourLoop square;
+  for (const Point& p : {Point{1, 1}, Point{3, 1}, Point{3, 4}, Point{1, 4}}) square.vertices.push_back({p});
+  CHECK(twice_signed_area(square) == 12);
+  std::ranges::reverse(square.vertices);
+  CHECK(twice_signed_area(square) == -12);
 }
 
 TEST_CASE("the ring around a point is the outer border of its part") {
