@@ -265,7 +265,6 @@ void Session::advance(const std::function<Wanted()>& want, const Means& means, c
   made = placed(std::move(made), decomposition, descendants, means, report);
   report.balance = stage.seconds();
 
-  old_.reset();
   if (keeps_old_) old_ = std::move(present_.piece);
   if (joined) plan_ = std::move(joined->plan);
   if (divided) set_decomposition(std::move(divided->cut.divided), descendants.whole_of);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "adapt/fit_lengths.hpp"
 #include "adapt/granularity.hpp"
 #include "adapt/linear_lengths.hpp"
+#include "adapt/regenerate.hpp"
 #include "decompose/presplit.hpp"
 #include "mesh/cdt.hpp"
 
@@ -201,4 +203,26 @@ TEST_CASE("light subdomains are joined with neighbors if enough of them go") {
   REQUIRE(pair.size() == 16);
   for (const SubdomainId s : ids_of(pair)) CHECK(pair[s] == (to_int(s) == 4 ? SubdomainId{3} : s));
   CHECK(groups(48, {{3, 10}, {4, 10}, {20, 10}, {30, 10}}).empty());  // of four light ones, one would go
+}
+
+TEST_CASE("a part is kept, mended or made anew by what changes, and by how worn its memory is") {
+  const HalfSquare half(1, 1, 1);
+  const auto fate = [&](const Demand& demand, double density, std::size_t free_triangles) {
+    auto mesh = std::make_shared<SubdomainMesh>();
+    mesh->mesh = half.mesh;
+    for (std::size_t i = 0; i < free_triangles; ++i) {
+      mesh->mesh.free_triangles.push_back(mesh->mesh.triangles.next_id());
+      mesh->mesh.triangles.push_back({.vertex = {kNone, kNone, kNone}, .neighbor = {kNone, kNone, kNone}});
+    }
+    const Part part{mesh, 1, density, std::make_shared<const Lengths>(half.lengths)};
+    return fate_of(part, demand, 0.25);
+  };
+  CHECK(fate({.triangles = 1}, 1, 0) == Fate::kKeep);
+  CHECK(fate({.triangles = 0.8}, 1, 0) == Fate::kKeep);
+  CHECK(fate({.triangles = 0.7, .changes = 0.3}, 1, 0) == Fate::kMend);
+  CHECK(fate({.triangles = 1.2, .too_large = true, .changes = 0.4}, 1, 0) == Fate::kMend);
+  CHECK(fate({.triangles = 1.2, .too_large = true, .changes = 0.4}, 1, 1) == Fate::kMend);
+  CHECK(fate({.triangles = 1.2, .too_large = true, .changes = 0.4}, 1, 2) == Fate::kRemake);
+  CHECK(fate({.triangles = 1.2, .too_large = true, .changes = 0.7}, 1, 0) == Fate::kRemake);
+  CHECK(fate({.triangles = 1}, 0.9, 0) == Fate::kRemake);  // has more than a tenth too many
 }

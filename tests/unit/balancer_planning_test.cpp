@@ -107,6 +107,52 @@ TEST_CASE("what a plan moves does not move again while it is on its way, nor soo
   }
 }
 
+TEST_CASE("what is on its way to a rank is not sent on before it has come, however long that takes") {
+  ControllerOptions options = planning_early();
+  options.interval = 1000, options.overhead = 1e9, options.gap = 0.01;
+  Controller leader(0_rank, std::make_shared<Layout>(grid_layout(30, 1, 3)), make_policy("greedy"), options, 0);
+  leader.receive(1_rank, LoadReport{1, 0, 100, loads_of(10, 29, 1000)}, 1);
+  leader.receive(2_rank, LoadReport{1, 0, 100, {}}, 1);
+  const auto first = sent<Plan>(leader.think(1, loads_of(0, 9, 1000), 100));
+  REQUIRE(first.size() == 1);
+  Loads come;
+  for (const Move& move : first[0].second.moves) {
+    CHECK(move.destination == 2_rank);
+    come.push_back({move.subdomain, 1, 1000, 40});
+  }
+  REQUIRE(come.size() == 10);
+
+  // Ranks 0 and 1 have finished all that they kept, long after what has moved last may move again.
+  leader.receive(1_rank, LoadReport{2, 1, 100, {}}, 20);
+  const Decision meanwhile = leader.think(20, {}, 100);
+  CHECK(meanwhile.planned);
+  CHECK(moved_by(meanwhile).empty());
+  leader.receive(2_rank, LoadReport{2, 0, 100, come}, 21);
+  CHECK(!moved_by(leader.think(21, {}, 100)).empty());
+}
+
+TEST_CASE("a policy learns what moves cost, and that what is done sooner than moved stays") {
+  std::vector<LoadSnapshot> shown;
+  const auto policy = leader_policy([&](const LoadSnapshot& load) {
+    shown.push_back(load);
+    return std::vector<Move>{};
+  });
+  Controller leader(0_rank, std::make_shared<Layout>(grid_layout(12, 1, 2)), policy, planning_early(), 0);
+  Loads own = loads_of(6, 11, 1000);
+  own[0].bytes = 0;
+  own[1].bytes = 1000;
+  own[2].bytes = 40'000;
+  leader.receive(1_rank, LoadReport{1, 0, 100, own}, 1);
+  static_cast<void>(leader.think(1, {}, 100));
+  REQUIRE(shown.size() == 1);
+  // A millisecond, a nanosecond for each byte, and at both ends the time in which a rank makes 0.015 triangles.
+  CHECK(find(shown[0], 6_sub)->cost == doctest::Approx(0.001));
+  CHECK(find(shown[0], 7_sub)->cost == doctest::Approx(0.001 + 1e-6 + 2 * 0.15));
+  CHECK(find(shown[0], 8_sub)->cost == doctest::Approx(0.001 + 4e-5 + 2 * 6));
+  CHECK(!find(shown[0], 7_sub)->fixed);
+  CHECK(find(shown[0], 8_sub)->fixed);  // 10 s of work
+}
+
 TEST_CASE("plans are numbered") {
   Controller leader = eager_leader();
   leader.receive(1_rank, LoadReport{1, 0, 100, loads_of(0, 19, 1000)}, 1);

@@ -187,6 +187,22 @@ TEST_CASE("diffusion sends work to the partners that finish earlier") {
   for (const Move& move : policy->plan(s, 2_rank)) CHECK(move.destination == 0_rank);  // all others are its partners
 }
 
+TEST_CASE("diffusion gives nothing that is worked on, however close it is to the other rank") {
+  LoadSnapshot s = initial_snapshot(grid_layout(6, 1, 2), {100, 100});
+  for (SubdomainLoad& load : s.subdomains) load.owner = load.id < 5_sub ? 0_rank : 1_rank;
+  s.subdomains[5].remaining = 1;
+  sum_up(s);
+  const auto given = [&](SubdomainId worked_on) {
+    std::int32_t turn = 1;
+    for (SubdomainLoad& load : s.subdomains) load.turn = load.id == worked_on || load.owner == 1_rank ? 0 : turn++;
+    return make_policy("diffusion")->plan(s, 0_rank);
+  };
+  // First the one next to the other rank, then the one whose turn is last.
+  CHECK(given(0_sub) == std::vector<Move>{{4_sub, 1_rank}, {3_sub, 1_rank}});
+  // First the one with least border to what stays.
+  CHECK(given(4_sub) == std::vector<Move>{{0_sub, 1_rank}, {3_sub, 1_rank}});
+}
+
 TEST_CASE("each rank is a partner of its distant partners, and all of each other over a few steps") {
   for (const std::int32_t ranks : {1, 2, 3, 4, 16, 144, 1000}) {
     CAPTURE(ranks);

@@ -173,6 +173,26 @@ TEST_CASE("a giver keeps what the other rank would begin too late") {
   CHECK(given(0.4) == 0);
 }
 
+TEST_CASE("a giver tells the broker what it has left, even if that is little less than was to be expected") {
+  const auto news = [](bool asked) {
+    Controller giver = controller_of(1_rank, grid_layout(40, 1, 2), "stealing");
+    REQUIRE(sent<balancer::LoadNews>(giver.think(1, loads_of(20, 39, 1000), 1000)).size() == 1);
+    // For a tenth of a second it has worked as told. The other rank begins no more than one subdomain until the
+    // horizon.
+    if (asked) giver.receive(0_rank, balancer::WorkRequest{0_rank, 1, 500, 1000, 0, 0, kAmpleMemory, 0.6}, 1.1);
+    Loads own = loads_of(20, 39, 1000);
+    own[0].remaining = 900;
+    const Decision decision = giver.think(1.1, own, 1000);
+    CHECK(decision.moves.size() == (asked ? 1 : 0));
+    return sent<balancer::LoadNews>(decision);
+  };
+  CHECK(news(false).empty());
+  const auto told = news(true);
+  REQUIRE(told.size() == 1);
+  CHECK(told[0].first == 0_rank);
+  CHECK(told[0].second.remaining == 18'900);
+}
+
 TEST_CASE("a rank that turns out to be slow gives work to those that were refused") {
   const Layout layout = grid_layout(12, 1, 3);
   Controller broker = controller_of(0_rank, layout, "stealing");

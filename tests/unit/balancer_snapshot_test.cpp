@@ -138,6 +138,22 @@ TEST_CASE("surplus goes to the rank that finishes it first") {
   CHECK(moves_between(dealt, deal_surplus(dealt, 0.02)).empty());
 }
 
+TEST_CASE("neighbors go to a rank together unless all would then end too late") {
+  // A row of five, all on the first of three ranks: 10 s for each. The first piece stays. From the end of the row on,
+  // the others leave with their neighbors in 9 and 11 s, or one by one in 10 and 10.
+  LoadSnapshot s = initial_snapshot(grid_layout(5, 1, 1), {100, 100, 100});
+  const double work[] = {1000, 600, 500, 500, 400};
+  Layout layout = *s.layout;
+  layout.ranks = 3;
+  for (SubdomainLoad& load : s.subdomains)
+    layout.subdomains[load.id].predicted = load.remaining = work[to_index(load.id)];
+  s.layout = std::make_shared<Layout>(layout);
+  sum_up(s);
+  const auto dealt = [&](double tolerance) { return moves_between(s, deal_surplus(s, tolerance)); };
+  CHECK(dealt(0.12) == std::vector<Move>{{1_sub, 2_rank}, {2_sub, 2_rank}, {3_sub, 1_rank}, {4_sub, 1_rank}});
+  CHECK(dealt(0.02) == std::vector<Move>{{1_sub, 1_rank}, {2_sub, 2_rank}, {3_sub, 2_rank}, {4_sub, 1_rank}});
+}
+
 TEST_CASE("borders of which one side is mostly finished do not count") {
   LoadSnapshot s = initial_snapshot(grid_layout(12, 1, 3), {100, 100, 100});
   CHECK(border_between_ranks(s) == 2);
@@ -229,4 +245,17 @@ TEST_CASE("of moves that are not needed, the costly ones are dropped") {
   sum_up(s);
   // Rank 1 has 3 s of work, the others 1.1 and 0. Moving the small heavy one as well gains nothing.
   CHECK(worth_moving(s, std::vector<Move>{{1_sub, 2_rank}, {3_sub, 2_rank}}, {}) == std::vector<Move>{{3_sub, 2_rank}});
+}
+
+TEST_CASE("a plan saves what the moves that are made of it save") {
+  LoadSnapshot s = initial_snapshot(grid_layout(6, 1, 2), {1000, 1000});
+  s.subdomains[0].remaining = 10'000;
+  s.subdomains[1].remaining = 3'000;
+  for (const std::size_t i : {3, 4, 5}) s.subdomains[i].remaining = 0;
+  sum_up(s);
+  // Both moves end after 13 s instead of 14; the large one alone, after 10.
+  const std::vector<Move> plan{{0_sub, 1_rank}, {1_sub, 1_rank}};
+  const auto made = [&](double gain) { return worth_moving(s, plan, {}, {.gain = gain}); };
+  CHECK(made(0.28) == std::vector<Move>{{0_sub, 1_rank}});
+  CHECK(made(0.29).empty());
 }

@@ -17,11 +17,13 @@
 #include "mesh/exceptions.hpp"
 #include "pslg/poly_file.hpp"
 #include "sizing/make_size_field.hpp"
+#include "small_domains.hpp"
 #include "support/prepared_mesh.hpp"
 #include "support/refine_together.hpp"
 
 using namespace driftmesh;
 using driftmesh::testing::prepared;
+using driftmesh::testing::rectangle;
 
 namespace {
 
@@ -41,12 +43,6 @@ std::vector<Point> circle(Point center, double radius, int n) {
     points.push_back({center.x + radius * std::cos(angle), center.y + radius * std::sin(angle)});
   }
   return points;
-}
-
-Pslg rectangle(double width, double height) {
-  Pslg pslg;
-  add_ring(pslg, {{0, 0}, {width, 0}, {width, height}, {0, height}});
-  return pslg;
 }
 
 Pslg with_holes() {
@@ -344,6 +340,20 @@ TEST_CASE("a skewed decomposition is uneven, valid and follows its seed") {
   CHECK(d == decompose(mesh, options));
   options.seed = 2;
   CHECK(!(d == decompose(mesh, options)));
+}
+
+TEST_CASE("an uneven cut in two gives one side up to twice as much as the other, and is left like that") {
+  const Triangulation mesh = prepared(rectangle(2, 1));
+  double sum = 0;
+  constexpr int kSeeds = 50;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const Decomposition d = decompose(mesh, {.subdomains = 2, .bounds = {}, .skew = 1, .seed = seed});
+    const double larger = std::max(d.subdomains[SubdomainId{0}].area, d.subdomains[SubdomainId{1}].area) / 2;
+    CHECK(larger < 0.7);
+    sum += larger;
+  }
+  // The mean of b / (1 + b) where b is as likely to be any number from 1 to 2.
+  CHECK(sum / kSeeds == doctest::Approx(1 - std::log(1.5)).epsilon(0.03));
 }
 
 TEST_CASE("options out of range are rejected") {

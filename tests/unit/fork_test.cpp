@@ -143,3 +143,18 @@ TEST_CASE("there is no fork where the border is not seen, or the angle leaves no
   CHECK(!find_fork(outline_of({{0, 0}, {3, 0}, {3, 3}, {2.9, 0.1}, {0.1, 0.1}}, 0.1, kDegree), kDegree));  // L
   CHECK(!find_fork(outline_of({{0, 0}, {2, 0}, {1, std::sqrt(3.0)}}, 0.1, 100 * kDegree), 100 * kDegree));
 }
+
+TEST_CASE("a niche that cannot be seen from the center rules out a fork") {
+  const std::vector<Point> square = {{0, 0}, {3, 0}, {3, 3}, {0, 3}};
+  const std::vector<Point> with_niche = {{0, 0},     {3, 0},     {3, 1},   {3.3, 1}, {3.3, 1.5},
+                                         {3.2, 1.5}, {3.2, 1.1}, {3, 1.1}, {3, 3},   {0, 3}};
+  CHECK(find_fork(outline_of(square, 0.2, 30 * kDegree), 30 * kDegree));
+  CHECK(!find_fork(outline_of(with_niche, 0.2, 30 * kDegree), 30 * kDegree));
+}
+
+TEST_CASE("there is no fork where only two walls offer ends") {
+  // At 50 degrees no separator leaves the corners, and the shorter sides have no other ends unless these are dense.
+  const std::vector<Point> corners = {{0, 0}, {2.1, 0}, {2.1, 1}, {0, 1}};
+  CHECK(!find_fork(outline_of(corners, 0.7, 50 * kDegree), 50 * kDegree));
+  CHECK(find_fork(outline_of(corners, 0.1, 50 * kDegree), 50 * kDegree));
+}

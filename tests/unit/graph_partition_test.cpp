@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cstdint>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -45,4 +46,29 @@ TEST_CASE("two threads that partition graphs concurrently get the same results a
     });
   for (std::thread& t : threads) t.join();
   CHECK(same == std::vector<int>(2, kTimes));
+}
+
+TEST_CASE("the seed decides between partitions that are about as good, and is 1 unless it is given") {
+  const WeightedGraph graph = grid(20);
+  const auto with_seed = [&](std::int32_t seed) {
+    return std::vector<std::int32_t>(
+        partition_graph(graph, std::vector<double>(8, 1), driftmesh::PartitionMethod::kDirect, seed));
+  };
+  std::set<std::vector<std::int32_t>> different;
+  for (std::int32_t seed = 1; seed <= 4; ++seed) {
+    CAPTURE(seed);
+    different.insert(with_seed(seed));
+    CHECK(with_seed(seed) == with_seed(seed));
+  }
+  CHECK(different.size() > 1);
+  CHECK(with_seed(1) == in_eight_parts(graph));
+}
+
+TEST_CASE("where nothing has any weight, there is none to divide, and no edge is cut") {
+  WeightedGraph graph = grid(4);
+  for (double& weight : graph.vertex_weight) weight = 0;
+  for (const auto method : {driftmesh::PartitionMethod::kRecursive, driftmesh::PartitionMethod::kDirect}) {
+    const auto part = partition_graph(graph, {1, 1}, method);
+    for (const std::int32_t p : part) CHECK(p == part[0]);
+  }
 }

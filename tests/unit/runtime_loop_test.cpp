@@ -1,7 +1,9 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <memory>
 #include <random>
+#include <set>
 #include <string>
 
 #include "balancer/policies/policy_factory.hpp"
@@ -60,6 +62,27 @@ TEST_CASE("subdomains that move during refinement make the same mesh as those th
   CHECK(moves > 400);
   CHECK(forwarded > 50);
   CHECK(held > 10);
+}
+
+TEST_CASE("each subdomain is told of when it is finished, and once if nothing comes from its neighbors") {
+  const RunPlan plan = plan_of(ell(), {20, {1e-3}, {}, nullptr}, 2, 12, Presplit::kOn);
+  protocol::VirtualNetwork network({IdVector<Rank, double>(2, 1.0), {}, 1e-6, 1e-6});
+  std::multiset<SubdomainId> finished;
+  IdVector<Rank, std::unique_ptr<SubdomainLoop>> loops;
+  IdVector<Rank, protocol::RankStep> steps;
+  for (const Rank r : first_ids<Rank>(2)) {
+    const auto note = [&finished](const Subdomain& subdomain) {
+      CHECK_FALSE(subdomain.active());
+      finished.insert(subdomain.id());
+    };
+    loops.push_back(
+        std::make_unique<SubdomainLoop>(network.transport(r), plan, CostModel{}, RankLoop::Observers{}, note));
+    steps.push_back([l = loops[r].get()] { return l->step(); });
+  }
+  REQUIRE(network.run(steps).end == protocol::RunEnd::kFinished);
+  std::multiset<SubdomainId> all;
+  for (const SubdomainId s : ids_of(plan.owners)) all.insert(s);
+  CHECK(finished == all);
 }
 
 TEST_CASE("in virtual time two ranks take about half as long as one") {

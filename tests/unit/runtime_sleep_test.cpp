@@ -10,6 +10,17 @@
 using namespace driftmesh;
 using namespace driftmesh::testing;
 
+TEST_CASE("subdomains sleep where the plan of their run says") {
+  RunPlan plan = plan_of(ell(), {20, {1e-3}, {}, nullptr}, 1, 4, Presplit::kOff);
+  CHECK_FALSE(context_of(plan).sleep);
+  CHECK(context_of(plan).scratch == nullptr);
+  ScratchFile disk(std::filesystem::temp_directory_path().string());
+  plan.work.sleep = true;
+  plan.scratch = &disk;
+  CHECK(context_of(plan).sleep);
+  CHECK(context_of(plan).scratch == &disk);
+}
+
 TEST_CASE("sleeping subdomains wake up when a new point arrives") {
   std::int64_t asleep = 0, split = 0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
