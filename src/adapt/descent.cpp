@@ -44,13 +44,12 @@ Descent trace(const Triangulation& old_mesh, const Triangulation& new_mesh) {
       continue;
     }
     const Locator::Place place = locator.locate(new_mesh.points[v]);
-    Descent::Source& source = descent.sources[v];
-    source.vertex = old_mesh.triangles[place.triangle].vertex;
-    source.weight = place.weight;
-    source.stays = place.is_vertex();
-    if (source.stays) {
-      std::swap(source.vertex[0], source.vertex[place.corner]);
-      std::swap(source.weight[0], source.weight[place.corner]);
+    const auto& corners = old_mesh.triangles[place.triangle].vertex;
+    if (place.is_vertex()) {
+      const VertexId same = corners[place.corner];
+      descent.sources[v] = {{same, same, same}, {1, 0, 0}, true};
+    } else {
+      descent.sources[v] = {corners, place.weight, false};
     }
     around[v] = place.triangle;
   }

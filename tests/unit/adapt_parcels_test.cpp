@@ -9,6 +9,7 @@
 
 #include "adapt/generation.hpp"
 #include "adapt/loads.hpp"
+#include "adapt/mend.hpp"
 #include "adapt/parcel.hpp"
 #include "adapt/saved.hpp"
 #include "distributed/parts_file.hpp"
@@ -155,4 +156,25 @@ TEST_CASE("a saved session is refused that has other parts than it says, or come
   const auto swapped = [&](SubdomainId s) { return parcel(SubdomainId{3 - to_int(s)}); };
   save(path, head, generation.here, swapped, 1 << 20, alone);
   CHECK(mentions(refusal(), "subdomain 0 is another one"));
+}
+
+TEST_CASE("vertices that a bound on areas needs stay, however much lengths grow") {
+  const FourParts four;
+  for (const SubdomainId s : four.generation.here) {
+    const SubdomainMesh& part = *four.generation.parts[s].mesh;
+    Lengths short_ones, long_ones;
+    for (std::size_t v = 0; v < part.mesh.points.size(); ++v) {
+      short_ones.push_back(0.01);
+      long_ones.push_back(100);
+    }
+    const auto left = [&](const QualityBounds& bounds) {
+      return mend(part, short_ones, long_ones, bounds, {}).mesh->mesh.live_triangles();
+    };
+    QualityBounds tight = four.live.plan.bounds;
+    tight.plain.area /= 10;
+    CHECK(left(tight) == part.mesh.live_triangles());
+    QualityBounds none;
+    none.min_angle = 20;
+    CHECK(left(none) < part.mesh.live_triangles() / 2);
+  }
 }
