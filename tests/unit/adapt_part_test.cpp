@@ -161,3 +161,27 @@ TEST_CASE("an old mesh is kept on request") {
   adaptive.keep_old(false);
   CHECK(error_text([&] { (void)adaptive.old_mesh(); }).find("keep_old") != std::string::npos);
 }
+
+TEST_CASE("what is forecast of a generation is what it makes, not what it keeps") {
+  std::vector<double> forecasts;
+  MeshOptions options{.max_area = 0.001, .subdomains = {.count = 12}};
+  options.progress = [&](const Progress& progress) {
+    forecasts.push_back(progress.forecast);
+    return true;
+  };
+  AdaptiveMesh session(port(3), options, {.gradation = 0});
+  const auto before = static_cast<double>(session.mesh().triangles.size());
+  const auto forecast_for = [&](double finest) {  // within 0.05 of the corner; 0.01 around that
+    std::vector<double> lengths;
+    for (const Point& p : session.mesh().points)
+      lengths.push_back(p.x + p.y < 0.05 ? finest : p.x + p.y < 0.3 ? 0.01 : 0.08);
+    forecasts.clear();
+    session.adapt(lengths);
+    REQUIRE(!forecasts.empty());
+    return *std::ranges::max_element(forecasts);
+  };
+  const double made = forecast_for(0.01);
+  CHECK(made < before / 2);
+  CHECK(static_cast<double>(session.mesh().triangles.size()) > before);
+  CHECK(forecast_for(0.008) < made / 2);  // mended
+}
