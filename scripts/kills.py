@@ -36,6 +36,7 @@ from table import Table  # noqa: E402
 
 KILLS_IN_JOURNEY = 6  # at most
 EVERY = 0.5  # seconds between checkpoints
+HUNG = 30  # seconds after a kill until mpirun counts as hung
 SLACK = 10.0  # for a slice of work, for writing, and for a machine with much other work
 REQUEST = ["--generate", "pipe", "--presplit", "off", "-n", "60"]
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
@@ -61,7 +62,7 @@ def await_end(run, what):
     """Waits for a run that has been killed. False if all ranks end, but mpirun does not: that of Open MPI 4.1.4 may wait forever for a
     lock of its own (in PMIx_server_finalize)."""
     try:
-        run.communicate(timeout=30)
+        run.communicate(timeout=HUNG)
         return True
     except subprocess.TimeoutExpired:
         pass
@@ -183,7 +184,7 @@ def kills_table(options):
     table = Table("kills", "Kills", ["killed", "times", "gone on with", "begun anew: no checkpoint yet"],
                   f"{kills} kills in {journeys} journeys (seed {options.seed}), each of which ended with the mesh of a run that was never "
                   f"stopped. The last checkpoint of a run that had made some ({tally['ages']}) was at most {tally['age']:.2f} s old, where "
-                  f"one was due every {EVERY} s. mpirun itself did not end {tally['launchers']} times, when all ranks had, and was killed after 30 s.")
+                  f"one was due every {EVERY} s. mpirun itself did not end {tally['launchers']} times, when all ranks had, and was killed after {HUNG} s.")
     for what in sorted({key[0] for key in tally if isinstance(key, tuple)}):
         resumed, anew = tally[what, "resumed"], tally[what, "anew"]
         table.add(what, resumed + anew, resumed, anew)

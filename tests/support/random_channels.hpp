@@ -7,16 +7,10 @@
 
 #include "driftmesh/pslg.hpp"
 #include "support/random.hpp"
+#include "support/rings.hpp"
 
 // Domains with channels.
 namespace driftmesh::testing {
-
-/// Adds a ring of segments.
-inline void add_ring(Pslg& pslg, const std::vector<Point>& ring, std::int32_t marker) {
-  const auto first = static_cast<std::int32_t>(pslg.points.size()), count = static_cast<std::int32_t>(ring.size());
-  pslg.points.insert(pslg.points.end(), ring.begin(), ring.end());
-  for (std::int32_t i = 0; i < count; ++i) pslg.segments.push_back({first + i, first + (i + 1) % count, marker});
-}
 
 /// A channel about 1 wide, with bends, steps or rough banks, or straight along the x axis; every second one opens into
 /// a basin at its end, with an island. Banks have marker 1, the basin 2, the island 3. Banks may cross in sharp bends.

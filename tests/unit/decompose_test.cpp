@@ -20,21 +20,14 @@
 #include "small_domains.hpp"
 #include "support/prepared_mesh.hpp"
 #include "support/refine_together.hpp"
+#include "support/rings.hpp"
 
 using namespace driftmesh;
+using driftmesh::testing::add_ring;
 using driftmesh::testing::prepared;
 using driftmesh::testing::rectangle;
 
 namespace {
-
-void add_ring(Pslg& pslg, const std::vector<Point>& corners, int marker = 1) {
-  const auto first = static_cast<std::int32_t>(pslg.points.size());
-  const auto n = static_cast<std::int32_t>(corners.size());
-  for (std::int32_t i = 0; i < n; ++i) {
-    pslg.points.push_back(corners[static_cast<std::size_t>(i)]);
-    pslg.segments.push_back({first + i, first + (i + 1) % n, marker});
-  }
-}
 
 std::vector<Point> circle(Point center, double radius, int n) {
   std::vector<Point> points;

@@ -10,27 +10,18 @@
 #include "decompose/decompose.hpp"
 #include "driftmesh/error.hpp"
 #include "support/prepared_mesh.hpp"
+#include "support/rings.hpp"
 
 // Where separators end only at points of the domain, there is little room for cuts: a right triangle with equal legs
 // cannot be cut at all, and a square only along a diagonal.
 
 using namespace driftmesh;
 using driftmesh::testing::prepared;
+using driftmesh::testing::pslg_of_rings;
 
 namespace {
 
 using Corners = std::vector<Point>;
-
-/// Polygons apart from each other.
-Triangulation mesh_of_polygons(const std::vector<Corners>& polygons) {
-  Pslg pslg;
-  for (const Corners& corners : polygons) {
-    const auto first = static_cast<std::int32_t>(pslg.points.size()), count = static_cast<std::int32_t>(corners.size());
-    for (std::int32_t i = 0; i < count; ++i) pslg.segments.push_back({first + i, first + (i + 1) % count, 1});
-    pslg.points.insert(pslg.points.end(), corners.begin(), corners.end());
-  }
-  return prepared(pslg);
-}
 
 Corners right_triangle(double legs, double x = 0) {
   return {{x, 0}, {x + legs, 0}, {x, legs}};
@@ -42,7 +33,7 @@ Corners box_at(double x, double width, double height) {
 }
 
 Decomposition cut_at_corners(const std::vector<Corners>& polygons, std::int32_t subdomains) {
-  return decompose(mesh_of_polygons(polygons), {.subdomains = subdomains, .bounds = {}, .whole_segments = true});
+  return decompose(prepared(pslg_of_rings(polygons)), {.subdomains = subdomains, .bounds = {}, .whole_segments = true});
 }
 
 std::vector<double> ascending_areas(const Decomposition& d) {
@@ -69,7 +60,7 @@ TEST_CASE("the parts that a heavy piece cannot be cut into go to one that can be
 }
 
 TEST_CASE("a heavy piece that cannot be divided stays one part, and one that can becomes two of one part each") {
-  PlanarMap map = connected_walls(mesh_of_polygons({right_triangle(2), box_at(3, 2, 2)}), 10, 1);
+  PlanarMap map = connected_walls(prepared(pslg_of_rings({right_triangle(2), box_at(3, 2, 2)})), 10, 1);
   map.whole_segments = true;
   IdVector<PieceId, Piece> pieces = find_pieces(map, QualityBounds{});
   REQUIRE(pieces.size() == 2);

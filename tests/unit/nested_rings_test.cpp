@@ -8,22 +8,12 @@
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/blocks.hpp"
 #include "mesh/cdt.hpp"
+#include "support/rings.hpp"
 
 using namespace driftmesh;
+using driftmesh::testing::pslg_of_rings;
 
 namespace {
-
-using Chain = std::vector<Point>;
-
-Pslg chains(const std::vector<Chain>& chains) {
-  Pslg pslg;
-  for (const Chain& chain : chains) {
-    const auto first = static_cast<std::int32_t>(pslg.points.size()), count = static_cast<std::int32_t>(chain.size());
-    pslg.points.insert(pslg.points.end(), chain.begin(), chain.end());
-    for (std::int32_t i = 0; i < count; ++i) pslg.segments.push_back({first + i, first + (i + 1) % count, 1});
-  }
-  return pslg;
-}
 
 double nested_area(Pslg pslg) {
   static_cast<void>(repair(pslg));
@@ -35,8 +25,8 @@ double nested_area(Pslg pslg) {
   return area;
 }
 
-const Chain kBoundary{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
-const Chain kAtCorner{{0, 0}, {4, 3}, {6, 6}, {3, 4}};  // area 6
+const std::vector<Point> kBoundary{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+const std::vector<Point> kAtCorner{{0, 0}, {4, 3}, {6, 6}, {3, 4}};  // area 6
 
 }  // namespace
 
@@ -54,29 +44,29 @@ TEST_CASE("blocks are what remains connected without any of its points") {
 }
 
 TEST_CASE("nested rings that touch at a point are rings of their own") {
-  CHECK(nested_area(chains({kBoundary, kAtCorner})) == doctest::Approx(94));
+  CHECK(nested_area(pslg_of_rings({kBoundary, kAtCorner})) == doctest::Approx(94));
   // A ring that touches at its leftmost point, and one inside that touches both there.
-  CHECK(nested_area(chains({kBoundary, {{0, 5}, {8, 2}, {8, 8}}, {{0, 5}, {6, 4}, {6, 6}}})) ==
+  CHECK(nested_area(pslg_of_rings({kBoundary, {{0, 5}, {8, 2}, {8, 8}}, {{0, 5}, {6, 4}, {6, 6}}})) ==
         doctest::Approx(100 - 24 + 6));
   // A chain of rings, each at the end of the one before.
-  CHECK(nested_area(chains({kBoundary,
-                            {{2, 2}, {4, 2}, {4, 4}, {2, 4}},
-                            {{4, 4}, {6, 4}, {6, 6}, {4, 6}},
-                            {{6, 6}, {8, 6}, {8, 8}, {6, 8}}})) == doctest::Approx(88));
+  CHECK(nested_area(pslg_of_rings({kBoundary,
+                                   {{2, 2}, {4, 2}, {4, 4}, {2, 4}},
+                                   {{4, 4}, {6, 4}, {6, 6}, {4, 6}},
+                                   {{6, 6}, {8, 6}, {8, 8}, {6, 8}}})) == doctest::Approx(88));
 }
 
 TEST_CASE("nested rings that touch at two points, or cross, alternate where no segment is shared") {
-  CHECK(nested_area(chains({kBoundary, {{0, 0}, {6, 4}, {10, 10}, {4, 6}}})) == doctest::Approx(100 - 20));
-  CHECK(nested_area(chains({kBoundary, {{5, 5}, {15, 5}, {15, 15}, {5, 15}}})) == doctest::Approx(200 - 50));
-  CHECK(nested_area(chains({kBoundary, {{5, 0}, {10, 5}, {5, 10}, {0, 5}}, {{4, 4}, {6, 4}, {6, 6}, {4, 6}}})) ==
+  CHECK(nested_area(pslg_of_rings({kBoundary, {{0, 0}, {6, 4}, {10, 10}, {4, 6}}})) == doctest::Approx(100 - 20));
+  CHECK(nested_area(pslg_of_rings({kBoundary, {{5, 5}, {15, 5}, {15, 15}, {5, 15}}})) == doctest::Approx(200 - 50));
+  CHECK(nested_area(pslg_of_rings({kBoundary, {{5, 0}, {10, 5}, {5, 10}, {0, 5}}, {{4, 4}, {6, 4}, {6, 6}, {4, 6}}})) ==
         doctest::Approx(100 - 50 + 4));
 }
 
 TEST_CASE("a segment that ties a ring to the boundary does not change what it is") {
-  Pslg tied = chains({kBoundary, {{4, 4}, {6, 4}, {6, 6}, {4, 6}}});
+  Pslg tied = pslg_of_rings({kBoundary, {{4, 4}, {6, 4}, {6, 6}, {4, 6}}});
   tied.segments.push_back({0, 4, 1});
   CHECK(nested_area(tied) == doctest::Approx(96));
-  Pslg halves = chains({kBoundary});
+  Pslg halves = pslg_of_rings({kBoundary});
   halves.segments.push_back({0, 2, 1});
   CHECK(nested_area(halves) == doctest::Approx(100));
 }

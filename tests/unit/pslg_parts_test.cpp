@@ -22,20 +22,16 @@
 #include "pslg/polygons.hpp"
 #include "pslg/polylines.hpp"
 #include "support/error_text.hpp"
+#include "support/rings.hpp"
 #include "temporary_folder.hpp"
 
 // Parts of what repairs and reads domains, each by itself.
 
 using namespace driftmesh;
+using driftmesh::testing::add_ring;
 using driftmesh::testing::error_text;
 
 namespace {
-
-void add_ring(Pslg& pslg, const std::vector<Point>& ring, std::int32_t marker = 1) {
-  const auto first = static_cast<std::int32_t>(pslg.points.size()), n = static_cast<std::int32_t>(ring.size());
-  pslg.points.insert(pslg.points.end(), ring.begin(), ring.end());
-  for (std::int32_t i = 0; i < n; ++i) pslg.segments.push_back({first + i, first + (i + 1) % n, marker});
-}
 
 /// The points of each line in order, each from the lesser end, a closed one from its least point to the lesser
 /// neighbor.
