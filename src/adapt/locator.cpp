@@ -50,6 +50,11 @@ Locator::Stop Locator::walk(TriangleId start, const Point& p, int most_steps) co
   return stop;
 }
 
+/// More than walks take.
+int Locator::most_steps() const {
+  return 100 + 4 * static_cast<int>(std::sqrt(static_cast<double>(mesh_.triangles.size())));
+}
+
 /// Whether the point is inside, or outside by no more than rounding.
 bool Locator::is_settled(const Stop& stop, const Point& p) const {
   if (stop.inside()) return true;
@@ -100,8 +105,66 @@ void Locator::index_all() const {
                                                 std::move(triangles));
 }
 
+void Locator::make_rim() const {
+  std::vector<Box> boxes;
+  for (const TriangleId t : ids_of(mesh_.triangles)) {
+    if (!mesh_.triangles[t].alive()) continue;
+    for (int i = 0; i < 3; ++i) {
+      const HalfEdge edge = half_edge(t, i);
+      if (mesh_.across(edge) != kNone) continue;
+      rim_.push_back(edge);
+      boxes.emplace_back();
+      boxes.back().extend(mesh_.points[mesh_.edge_start(edge)]);
+      boxes.back().extend(mesh_.points[mesh_.edge_end(edge)]);
+    }
+  }
+  rim_tree_ = BoxTree(boxes);
+}
+
+/// The stop of a point outside that is nearest to this edge.
+Locator::Stop Locator::beyond_edge(HalfEdge edge, const Point& p) const {
+  Stop stop{triangle_of(edge)};
+  for (int i = 0; i < 3; ++i)
+    stop.side[i] = orient2d(mesh_.corner(stop.triangle, next(i)), mesh_.corner(stop.triangle, previous(i)), p);
+  stop.least = index_of(edge);
+  stop.side[stop.least] = std::min(stop.side[stop.least], -0.0);
+  stop.beyond = true;
+  return stop;
+}
+
+/// From the nearest edge of the boundary on whose inner side the point is, unless one on whose outer side it is is
+/// nearer: then it is outside, beyond that edge. Nothing: the walk ended at the boundary, or the nearest point is an
+/// end of edges, which tells no sides.
+std::optional<Locator::Stop> Locator::search_from_rim(const Point& p) const {
+  if (rim_.empty()) make_rim();
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const auto ends = [&](std::int32_t i) {
+    return std::pair(mesh_.points[mesh_.edge_start(rim_[to_index(i)])],
+                     mesh_.points[mesh_.edge_end(rim_[to_index(i)])]);
+  };
+  const auto distance = [&](std::int32_t i) {
+    const auto [a, b] = ends(i);
+    return squared_distance_to_segment(p, a, b);
+  };
+  const auto nearest_seen_from = [&](int side) {
+    return rim_tree_.nearest(p, [&](std::int32_t i) {
+      const auto [a, b] = ends(i);
+      return side * orient2d(a, b, p) >= 0 ? distance(i) : kNever;
+    });
+  };
+  const std::int32_t inner = nearest_seen_from(1), outer = nearest_seen_from(-1);
+  if (outer < 0 || (inner >= 0 && distance(inner) <= distance(outer))) {
+    const Stop stop = walk(triangle_of(rim_[to_index(inner)]), p, most_steps());
+    return is_settled(stop, p) ? std::optional(stop) : std::nullopt;
+  }
+  const auto [a, b] = ends(outer);
+  const double t = along(a, b, p);
+  if (!(t > 0 && t < 1)) return {};
+  return beyond_edge(rim_[to_index(outer)], p);
+}
+
 /// Among all triangles: one that contains the point, or else the one whose boundary edge is nearest.
-Locator::Stop Locator::search(const Point& p) const {
+Locator::Stop Locator::search_all(const Point& p) const {
   if (!all_) index_all();
   Stop stop{in_all_[to_index(all_->locate(p).triangle)]};
   const TriangleId t = stop.triangle;
@@ -116,9 +179,7 @@ Locator::Stop Locator::search(const Point& p) const {
     least = distance;
     stop.least = i;
   }
-  stop.side[stop.least] = std::min(stop.side[stop.least], -0.0);
-  stop.beyond = true;
-  return stop;
+  return beyond_edge(half_edge(t, stop.least), p);
 }
 
 Locator::Place Locator::place_at(const Stop& stop, const Point& p) const {
@@ -154,9 +215,11 @@ Locator::Place Locator::locate(const Point& p) const {
   Stop stop = walk(last_, p, kShort);
   if (!is_settled(stop, p)) {
     const TriangleId start = start_near(p);
-    const auto most_steps = 100 + 4 * static_cast<int>(std::sqrt(static_cast<double>(mesh_.triangles.size())));
-    stop = walk(start != kNone ? start : stop.triangle, p, most_steps);
-    if (!is_settled(stop, p)) stop = search(p);
+    stop = walk(start != kNone ? start : stop.triangle, p, most_steps());
+    if (!is_settled(stop, p)) {
+      const std::optional<Stop> found = search_from_rim(p);
+      stop = found ? *found : search_all(p);
+    }
   }
   last_ = stop.triangle;
   return place_at(stop, p);

@@ -2,9 +2,11 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "driftmesh/point.hpp"
+#include "geometry/box_tree.hpp"
 #include "mesh/triangulation.hpp"
 #include "sizing/background_mesh.hpp"
 
@@ -34,11 +36,15 @@ class Locator {
   struct Stop;
 
   [[nodiscard]] Stop walk(TriangleId start, const Point& p, int most_steps) const;
+  [[nodiscard]] int most_steps() const;
   [[nodiscard]] bool is_settled(const Stop& stop, const Point& p) const;
   [[nodiscard]] TriangleId start_near(const Point& p) const;
   void make_starts() const;
+  void make_rim() const;
   void index_all() const;
-  [[nodiscard]] Stop search(const Point& p) const;
+  [[nodiscard]] std::optional<Stop> search_from_rim(const Point& p) const;
+  [[nodiscard]] Stop search_all(const Point& p) const;
+  [[nodiscard]] Stop beyond_edge(HalfEdge edge, const Point& p) const;
   [[nodiscard]] Place place_at(const Stop& stop, const Point& p) const;
 
   const Triangulation& mesh_;
@@ -51,7 +57,11 @@ class Locator {
   mutable double width_ = 0;
   mutable std::size_t columns_ = 0;
 
-  // For points outside, and where all walks end at the boundary. Made when the first of them comes.
+  // For points outside, and where walks end at the boundary: the edges of that. Made when the first of them comes.
+  mutable std::vector<HalfEdge> rim_;
+  mutable BoxTree rim_tree_;
+
+  // Where walks from there do, too. Made when the first of them comes.
   mutable std::shared_ptr<const BackgroundMesh> all_;
   mutable std::vector<TriangleId> in_all_;
 };
