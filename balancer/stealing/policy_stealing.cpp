@@ -66,4 +66,11 @@ std::unique_ptr<Policy> make_stealing(Parameters& parameters) {
   return std::make_unique<Stealing>(parameters.number("low-water", 0, 0, 1e6));
 }
 
+PolicyMaker stealing_maker() {
+  return [](const std::string& name, const Parameters::Values& values) {
+    Parameters parameters(name, values);
+    return make_stealing(parameters);
+  };
+}
+
 }  // namespace driftmesh::balancer

@@ -1,11 +1,11 @@
 #include "driftmesh/check.hpp"
 
 #include <algorithm>
-#include <thread>
 #include <utility>
 
 #include "api/call.hpp"
 #include "api/library_request.hpp"
+#include "base/cores.hpp"
 #include "driftmesh/repair.hpp"
 #include "geometry/box.hpp"
 #include "job/check.hpp"
@@ -32,9 +32,8 @@ job::Request requirements_of(const MeshOptions& options) {
 
 /// One, if there is a `size`: the caller's may not be made for more.
 std::size_t threads_for(const MeshOptions& options) {
-  if (options.threads > 0) return static_cast<std::size_t>(options.threads);
-  return options.size && described_field(options.size) == nullptr ? 1
-                                                                  : std::max(1U, std::thread::hardware_concurrency());
+  const bool for_one = options.threads == 0 && options.size && described_field(options.size) == nullptr;
+  return for_one ? 1 : to_index(threads_or_cores(options.threads));
 }
 
 std::vector<CheckReport::Finding> findings_of(const Findings& found) {

@@ -8,7 +8,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "adapt/fields.hpp"
@@ -19,6 +18,7 @@
 #include "app/number_map.hpp"
 #include "app/request_line.hpp"
 #include "app/run_files.hpp"
+#include "base/cores.hpp"
 #include "base/key_error.hpp"
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
@@ -120,7 +120,7 @@ VerifyReport read_and_verify(CheckOptions& options, const job::Request& request)
   sizes.rasters = std::move(rasters.open);
   options.verify.courant = job::courant_of(request.sizing);
   if (options.verify.courant.step > 0) options.verify.depth = options.depth.get();
-  options.verify.threads = options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
+  options.verify.threads = to_index(threads_or_cores(options.threads));
   options.size = make_size_field(sizes);
   options.verify.size = options.size.get();
   // Lengths whose growth is limited cannot fall much between the points that are looked up anyway.

@@ -1,9 +1,9 @@
 #include "job/here.hpp"
 
 #include <algorithm>
-#include <thread>
 #include <utility>
 
+#include "base/cores.hpp"
 #include "distributed/piece_series.hpp"
 #include "job/one_piece.hpp"
 #include "job/thread_run.hpp"
@@ -33,8 +33,7 @@ std::unique_ptr<Refined> Here::refine(Order&& order, const Limits& limits, const
 }
 
 std::int32_t threads_of(const Request& request) {
-  if (request.run.threads > 0) return request.run.threads;
-  return static_cast<std::int32_t>(std::max(1U, std::thread::hardware_concurrency()));
+  return threads_or_cores(request.run.threads);
 }
 
 }  // namespace driftmesh::job

@@ -81,10 +81,7 @@ constexpr const char* kPolicyOfThreads = "stealing";
 balancer::PolicyMaker policies_of(const Given& given, PlaceKind place, std::size_t ranks) {
   if (place != kSubdomains) return given.policies;
   if (ranks == 1) return nullptr;
-  return [](const std::string& name, const balancer::Parameters::Values& values) {
-    balancer::Parameters parameters(name, values);
-    return balancer::make_stealing(parameters);
-  };
+  return balancer::stealing_maker();
 }
 
 Balancing balancing_of(const Request& request, PlaceKind place, std::size_t ranks) {

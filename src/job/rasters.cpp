@@ -1,8 +1,8 @@
 #include "job/rasters.hpp"
 
 #include <algorithm>
-#include <thread>
 
+#include "base/cores.hpp"
 #include "driftmesh/id_vector.hpp"
 #include "gis/coordinates.hpp"
 #include "gis/projection.hpp"
@@ -65,7 +65,7 @@ Rasters rasters_of(const Request& request, const std::string& projection, bool f
 
 std::vector<std::string> open_all(Rasters& rasters, const Box& box, const std::vector<Point>& points) {
   RasterPlace place{.domain = box, .points = points, .projection = projection_named(rasters.projection)};
-  place.threads = rasters.threads > 0 ? to_index(rasters.threads) : std::max(1U, std::thread::hardware_concurrency());
+  place.threads = to_index(threads_or_cores(rasters.threads));
   std::vector<std::string> warnings;
   for (const auto& [name, file] : rasters.files) {
     const OpenedRaster opened = open_rasters(files_in(file), place, rasters.stacking);

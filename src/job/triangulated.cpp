@@ -85,13 +85,6 @@ std::vector<std::string> narrow_warnings(const Triangulation& mesh, const Qualit
       worst.at.x, worst.at.y, worst.width, worst.length, estimate_words(worst.triangles), others)};
 }
 
-/// Large meshes are made in subdomains if a bound on size says where their triangles will be. Depends on neither the
-/// machine nor the number of threads.
-bool is_large(const Triangulation& mesh, double forecast) {
-  constexpr double kLarge = 500'000;  // triangles to be made: a tenth of a second of work
-  return forecast - static_cast<double>(mesh.live_triangles()) >= kLarge;
-}
-
 }  // namespace
 
 Triangulated triangulate_domain(const Request& request, const Domain& domain, std::int32_t ranks, Cut cut,
@@ -108,9 +101,11 @@ Triangulated triangulate_domain(const Request& request, const Domain& domain, st
     warn(request, background_warnings(domain, result.mesh), watch);
     result.bounds = bounds_of(request, domain, result.mesh, ranks);
     const auto count = [&] { result.forecast = forecast_triangles(result.mesh, result.bounds); };
+    // Where a bound on size says where their triangles will be. Depends on neither the machine nor the number of
+    // threads.
     const bool if_large = cut == Cut::kIfLarge && SizeBounds(result.bounds).any();
     if (if_large) count();  // acute corners, not yet prepared, change little there
-    result.cut = cut == Cut::kAlways || (if_large && is_large(result.mesh, result.forecast));
+    result.cut = cut == Cut::kAlways || (if_large && is_worth_cutting(result.mesh, result.forecast));
     const std::size_t before = result.mesh.live_vertices();
     result.acute_corners =
         prepare_corners(result.mesh, result.cut ? CornerUse{} : CornerUse{request.bounds.angle, false, domain.rules});

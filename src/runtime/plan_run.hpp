@@ -25,6 +25,9 @@ struct PlanOptions {
 /// would otherwise exceed a second-level cache.
 [[nodiscard]] std::int32_t default_subdomains(double triangles, std::int32_t ranks);
 
+/// Whether a mesh of so many triangles takes long enough to be made in subdomains on threads where nobody asks for it.
+[[nodiscard]] bool is_worth_cutting(const Triangulation& mesh, double forecast);
+
 /// Cuts the domain (triangulated, corners prepared) as `options` say; with options.subdomains = 0 into
 /// default_subdomains, or as many as the domain allows. Throws like decompose.
 [[nodiscard]] Decomposition decompose_for(const Triangulation& mesh, DecomposeOptions options, std::int32_t ranks);
