@@ -14,28 +14,29 @@ namespace driftmesh::python {
 namespace {
 
 PartOptions part_options(const py::object& lengths, double shortest, double longest, double gradation,
-                         double most_triangles, double min_angle) {
+                         double most_triangles, double min_angle, std::int32_t threads) {
   PartOptions options{
       .sizes = {.shortest = shortest, .longest = longest, .gradation = gradation, .most_triangles = most_triangles},
-      .min_angle = min_angle};
+      .min_angle = min_angle,
+      .threads = threads};
   if (!lengths.is_none()) options.lengths = numbers_from(lengths, "lengths").values;
   return options;
 }
 
 AdaptedMesh part_of_mesh(const Mesh& mesh, const py::object& triangles, const py::object& lengths, double shortest,
                          double longest, double gradation, double most_triangles, double min_angle,
-                         std::vector<std::string> conserve) {
+                         std::vector<std::string> conserve, std::int32_t threads) {
   const std::vector<std::int32_t> numbers = integers_from(triangles, "triangles");
-  PartOptions options = part_options(lengths, shortest, longest, gradation, most_triangles, min_angle);
+  PartOptions options = part_options(lengths, shortest, longest, gradation, most_triangles, min_angle, threads);
   options.conserve = std::move(conserve);
   const py::gil_scoped_release unlocked;
   return adapt_part(mesh, numbers, options);
 }
 
 AdaptedMesh mesh_of_outline(const Mesh& mesh, const Pslg& domain, const py::object& lengths, double shortest,
-                            double longest, double gradation, double most_triangles, double min_angle,
-                            double tolerance) {
-  PartOptions options = part_options(lengths, shortest, longest, gradation, most_triangles, min_angle);
+                            double longest, double gradation, double most_triangles, double min_angle, double tolerance,
+                            std::int32_t threads) {
+  PartOptions options = part_options(lengths, shortest, longest, gradation, most_triangles, min_angle, threads);
   options.tolerance = tolerance;
   const py::gil_scoped_release unlocked;
   return adapt_outline(mesh, domain, options);
@@ -43,7 +44,7 @@ AdaptedMesh mesh_of_outline(const Mesh& mesh, const Pslg& domain, const py::obje
 
 constexpr const char* kPartDoc =
     "adapt_part(mesh, triangles, /, *, lengths=None, shortest=0, longest=inf, gradation=0.2, most_triangles=0,\n"
-    "           min_angle=20, conserve=()) -> AdaptedMesh\n\n"
+    "           min_angle=20, conserve=(), threads=0) -> AdaptedMesh\n\n"
     "Make these triangles of a mesh anew, given by their numbers, and as many around them as the bound on angles\n"
     "takes. All else stays bit for bit: points, triangles, edges, markers, data of points, and numbers.\n\n"
     "    lengths: of edges, one for each point of the mesh; None: those of the triangles that there are\n"
@@ -51,10 +52,11 @@ constexpr const char* kPartDoc =
     "    gradation: by how much lengths may grow per unit of distance; 0: no limit\n"
     "    most_triangles: LimitError if what is made anew would have more; 0: no limit\n"
     "    min_angle: of new triangles, in degrees\n"
-    "    conserve: names of point data whose integrals stay; all others are interpolated";
+    "    conserve: names of point data whose integrals stay; all others are interpolated\n"
+    "    threads: the most that work at once, on which nothing depends but time; 0: one for each core";
 constexpr const char* kOutlineDoc =
     "adapt_outline(mesh, domain, /, *, lengths=None, shortest=0, longest=inf, gradation=0.2, most_triangles=0,\n"
-    "              min_angle=20, tolerance=0) -> AdaptedMesh\n\n"
+    "              min_angle=20, tolerance=0, threads=0) -> AdaptedMesh\n\n"
     "Give a mesh a new domain, a Pslg: what touches a line that is on one of both outlines alone is made anew, and as\n"
     "much around it as the bound on angles takes; all else stays, as with adapt_part. Where the domain is beyond the\n"
     "old mesh, lengths and data are those at its nearest place.\n\n"
@@ -84,12 +86,12 @@ void add_adapt_part(py::module_& module) {
              py::arg("lengths") = py::none(), py::arg("shortest") = standard.sizes.shortest,
              py::arg("longest") = standard.sizes.longest, py::arg("gradation") = standard.sizes.gradation,
              py::arg("most_triangles") = standard.sizes.most_triangles, py::arg("min_angle") = standard.min_angle,
-             py::arg("conserve") = std::vector<std::string>(), kPartDoc);
+             py::arg("conserve") = std::vector<std::string>(), py::arg("threads") = standard.threads, kPartDoc);
   module.def("adapt_outline", &mesh_of_outline, py::arg("mesh"), py::arg("domain"), py::pos_only(), py::kw_only(),
              py::arg("lengths") = py::none(), py::arg("shortest") = standard.sizes.shortest,
              py::arg("longest") = standard.sizes.longest, py::arg("gradation") = standard.sizes.gradation,
              py::arg("most_triangles") = standard.sizes.most_triangles, py::arg("min_angle") = standard.min_angle,
-             py::arg("tolerance") = standard.tolerance, kOutlineDoc);
+             py::arg("tolerance") = standard.tolerance, py::arg("threads") = standard.threads, kOutlineDoc);
 }
 
 }  // namespace driftmesh::python

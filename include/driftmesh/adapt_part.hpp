@@ -27,6 +27,9 @@ struct PartOptions {
   std::vector<std::string> conserve{};
   /// Lines of both outlines that are so near to each other are the same; 0: as near as rounding puts them.
   double tolerance = 0;
+  /// The most threads that work at once where much is made anew; nothing else depends on their number. 0: one for each
+  /// core.
+  std::int32_t threads = 0;
 };
 
 /// A mesh of which parts are new.

@@ -55,12 +55,15 @@ class AtTriangles final : public ConservingTransfer {
   }
 
   void take(SubdomainId /*s*/, const Lineage::Change& change, const Overlaps& overlaps) override {
-    if (change.is_the_same) return;
     for (const Overlap& o : overlaps.found.overlaps)
       for (std::size_t k = 0; k < components(); ++k) {
         const double from = old()[place(change.old_number[o.old_triangle], k)];
         values_[place(change.new_number[o.new_triangle], k)] += from * o.area * overlaps.correction[o.old_triangle];
       }
+  }
+
+  void end(const Lineage::Change& change) override {
+    if (change.is_the_same) return;
     for (const TriangleId t : ids_of(change.new_number))
       if (change.new_number[t] != kNone && change.same[t] == kNone)
         for (std::size_t k = 0; k < components(); ++k)
@@ -155,8 +158,11 @@ std::vector<std::vector<double>> conserved(const Lineage& lineage, std::span<con
   SpareRoom spare;
   if (!fields.empty())
     lineage.visit_parts([&](SubdomainId s, const Lineage::Change& change) {
+      for (const auto& transfer : transfers) transfer->begin(s, change);
       Overlaps overlaps(change, spare.take());
-      for (const auto& transfer : transfers) transfer->take(s, change, overlaps);
+      while (overlaps.next())
+        for (const auto& transfer : transfers) transfer->take(s, change, overlaps);
+      for (const auto& transfer : transfers) transfer->end(change);
       spare.give(std::move(overlaps.found));
     });
   std::vector<std::vector<double>> values;

@@ -21,14 +21,28 @@ class AtPoints final : public ConservingTransfer {
   AtPoints(const Lineage& lineage, const ConservedField& field)
       : ConservingTransfer(lineage, field), sums_(lineage.after().parts.size()) {}
 
-  void take(SubdomainId s, const Lineage::Change& change, const Overlaps& overlaps) override {
+  void begin(SubdomainId s, const Lineage::Change& change) override {
     Sums& sums = sums_[s];
     const std::size_t vertices = change.new_mesh.points.size();
     sums.moments.assign(vertices * components(), 0);
     sums.mass.assign(vertices, 0);
     sums.changed.assign(vertices, false);
     take_triangles(s, change, sums);
-    take_overlaps(change, overlaps, sums);
+  }
+
+  void take(SubdomainId s, const Lineage::Change& change, const Overlaps& overlaps) override {
+    std::vector<double>& moments = sums_[s].moments;
+    for (const Overlap& o : overlaps.found.overlaps) {
+      const auto& from = change.old_mesh.triangles[o.old_triangle].vertex;
+      const auto& to = change.new_mesh.triangles[o.new_triangle].vertex;
+      const Share share(o, overlaps.found.polygon(o), change, overlaps.correction[o.old_triangle]);
+      for (std::size_t k = 0; k < components(); ++k) {
+        std::array<double, 3> at{};
+        for (int i = 0; i < 3; ++i) at[i] = old()[to_index(change.old_place[from[i]]) * components() + k];
+        const Weights more = share.moments(at);
+        for (int i = 0; i < 3; ++i) moments[to_index(to[i]) * components() + k] += more[i];
+      }
+    }
   }
 
   [[nodiscard]] std::vector<double> values() override {
@@ -63,20 +77,6 @@ class AtPoints final : public ConservingTransfer {
         const std::int32_t from = lineage().old_point_of(s, v);
         for (std::size_t k = 0; k < components(); ++k)
           sums.moments[to_index(v) * components() + k] += third * old()[to_index(from) * components() + k];
-      }
-    }
-  }
-
-  void take_overlaps(const Lineage::Change& change, const Overlaps& overlaps, Sums& sums) const {
-    for (const Overlap& o : overlaps.found.overlaps) {
-      const auto& from = change.old_mesh.triangles[o.old_triangle].vertex;
-      const auto& to = change.new_mesh.triangles[o.new_triangle].vertex;
-      const Share share(o, overlaps.found.polygon(o), change, overlaps.correction[o.old_triangle]);
-      for (std::size_t k = 0; k < components(); ++k) {
-        std::array<double, 3> at{};
-        for (int i = 0; i < 3; ++i) at[i] = old()[to_index(change.old_place[from[i]]) * components() + k];
-        const Weights more = share.moments(at);
-        for (int i = 0; i < 3; ++i) sums.moments[to_index(to[i]) * components() + k] += more[i];
       }
     }
   }

@@ -17,8 +17,12 @@ class ConservingTransfer {
   ConservingTransfer(const ConservingTransfer&) = delete;
   ConservingTransfer& operator=(const ConservingTransfer&) = delete;
 
-  /// Takes what a subdomain has of the field; called for several subdomains at once.
+  // What a subdomain has of the field, by one thread at a time; that of several subdomains at once.
+  virtual void begin(SubdomainId /*s*/, const Lineage::Change& /*change*/) {}
+  /// Called for all overlaps, some at a time, those of a new triangle at once.
   virtual void take(SubdomainId s, const Lineage::Change& change, const Overlaps& overlaps) = 0;
+  virtual void end(const Lineage::Change& /*change*/) {}
+
   /// The values on the new mesh, once all subdomains have been taken.
   [[nodiscard]] virtual std::vector<double> values() = 0;
 

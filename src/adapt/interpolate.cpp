@@ -1,6 +1,6 @@
 #include "adapt/interpolate.hpp"
 
-#include <algorithm>
+#include "adapt/interpolated.hpp"
 
 namespace driftmesh::adapt {
 
@@ -11,10 +11,7 @@ std::vector<double> interpolated_at_points(const Lineage& lineage, const std::ve
     for (std::size_t k = 0; k < components; ++k) {
       const auto at = [&](int i) { return old[to_index(from.point[i]) * components + k]; };
       double& value = values[to_index(point) * components + k];
-      value = at(0);
-      if (from.stays) continue;
-      const auto [least, most] = std::minmax({at(0), at(1), at(2)});
-      value = std::clamp(from.weight[0] * at(0) + from.weight[1] * at(1) + from.weight[2] * at(2), least, most);
+      value = from.stays ? at(0) : interpolated(from.weight, {at(0), at(1), at(2)});
     }
   });
   lineage.settle_shared(values, components);

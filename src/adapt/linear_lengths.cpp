@@ -40,11 +40,13 @@ LinearLengths::LinearLengths(const Triangulation& mesh, const Lengths& lengths)
 void LinearLengths::look_over() const {
   if (std::exchange(looked_over_, true)) return;
   least_ = std::numeric_limits<double>::infinity();
+  IdVector<TriangleId, double> slopes(mesh_.triangles.size(), 0);
   for (const TriangleId t : ids_of(mesh_.triangles)) {
     if (!mesh_.triangles[t].alive()) continue;
     for (const VertexId v : mesh_.triangles[t].vertex) least_ = std::min(least_, lengths_[v]);
-    slope_ = std::max(slope_, steepness(t));
+    slopes[t] = steepness(t);
   }
+  slopes_ = Slopes(mesh_, slopes);
 }
 
 double LinearLengths::least() const {
@@ -83,7 +85,7 @@ double LinearLengths::edge_length(const Point& p) const {
 double LinearLengths::least_between(const std::array<Point, 3>& triangle, double at_corners) const {
   constexpr double kFarthest = 0.5774;  // above 1 / sqrt(3)
   look_over();
-  const double least = at_corners - slope_ * kFarthest * longest_edge(triangle);
+  const double least = at_corners - slopes_.most_in(Box::of(triangle)) * kFarthest * longest_edge(triangle);
   return least > 0 ? least : 0;
 }
 
@@ -110,7 +112,7 @@ bool LinearLengths::falls_below(const std::array<Point, 3>& triangle, double len
   const double limit = length / kBetween;
   look_over();
   const Locator::Place middle = locator_.locate(centroid(triangle));
-  if (at(middle) - slope_ * kFarthest * longest_edge(triangle) >= limit) return false;
+  if (at(middle) - slopes_.most_in(Box::of(triangle)) * kFarthest * longest_edge(triangle) >= limit) return false;
   if (seen_.empty() || ++search_ == 0) {
     seen_.assign(mesh_.triangles.size(), 0);
     search_ = 1;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "adapt/locator.hpp"
+#include "adapt/slopes.hpp"
 #include "base/growing_array.hpp"
 #include "driftmesh/size_field.hpp"
 
@@ -42,7 +43,7 @@ class LinearLengths final : public SizeField {
   // Once somebody asks: most subdomains of a generation stay as they are.
   mutable bool looked_over_ = false;
   mutable double least_ = 0;
-  mutable double slope_ = 0;  // the most by which lengths change with distance
+  mutable Slopes slopes_;
 
   // Triangles that a search has seen have its number.
   mutable std::vector<std::uint32_t> seen_;

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <span>
 
 #include "adapt/lineage.hpp"
@@ -69,14 +71,28 @@ class Share {
   std::array<double, OverlapList::kMostCorners> areas_;             // those of the triangle that ends at each
 };
 
-/// What the new triangles of a subdomain overlap of those that are gone.
-struct Overlaps {
+/// What the new triangles of a subdomain overlap of those that are gone: all at once, or some at a time where there are
+/// so many that they are found twice rather than kept.
+class Overlaps {
+ public:
+  /// Other triangles have no overlaps but for rounding. `room`: memory for them.
+  Overlaps(const Lineage::Change& change, OverlapList room);
+
+  /// Goes on to the first ones, then to the next; false after the last.
+  bool next();
+
   OverlapList found;
   IdVector<TriangleId, double>
       correction{};  ///< an old triangle's area over the sum of its overlaps: 1 but for rounding
 
-  /// Other triangles have no overlaps but for rounding. `room`: memory for them.
-  Overlaps(const Lineage::Change& change, OverlapList room);
+ private:
+  [[nodiscard]] std::function<bool(TriangleId)> is_new() const;
+  bool find(OverlapFinder& finder);
+
+  const Lineage::Change& change_;
+  IdVector<TriangleId, bool> stays_;  // old triangles
+  std::optional<OverlapFinder> again_;
+  int left_ = 0;  // times that next() will find some
 };
 
 }  // namespace driftmesh::adapt

@@ -52,8 +52,10 @@ double area_of(const CommonPolygon& polygon) {
   return area;
 }
 
+}  // namespace
+
 /// Finds the old triangles that overlap one new triangle after another.
-class Search {
+class OverlapFinder::Search {
  public:
   explicit Search(const Triangulation& mesh) : mesh_(mesh), locator_(mesh), seen_(mesh.triangles.size(), 0) {}
 
@@ -98,36 +100,44 @@ class Search {
   std::vector<TriangleId> open_;
 };
 
-}  // namespace
+OverlapFinder::OverlapFinder(const Triangulation& old_mesh, const Triangulation& new_mesh,
+                             const std::function<bool(TriangleId)>& is_new)
+    : new_mesh_(new_mesh), search_(std::make_unique<Search>(old_mesh)), is_left_(new_mesh.triangles.size(), false) {
+  for (const TriangleId t : ids_of(new_mesh.triangles)) is_left_[t] = new_mesh.triangles[t].alive() && is_new(t);
+}
 
-void find_overlaps(const Triangulation& old_mesh, const Triangulation& new_mesh,
-                   const std::function<bool(TriangleId)>& is_new, OverlapList& found) {
+OverlapFinder::~OverlapFinder() = default;
+
+void OverlapFinder::enter(TriangleId t) {
+  if (is_left_[t]) open_.push_back(t);
+  is_left_[t] = false;
+}
+
+/// Whether one is open.
+bool OverlapFinder::next_triangle() {
+  for (; open_.empty() && first_ < is_left_.size(); ++first_) enter(static_cast<TriangleId>(first_));
+  return !open_.empty();
+}
+
+bool OverlapFinder::find(std::size_t most, OverlapList& found) {
+  if (!next_triangle()) return false;
   found.overlaps.clear();
   found.corners.clear();
-  Search search(old_mesh);
-  // From each triangle to one beside it, so that the search finds the next one near the last one.
-  IdVector<TriangleId, bool> is_left(new_mesh.triangles.size(), false);
-  for (const TriangleId t : ids_of(new_mesh.triangles)) is_left[t] = new_mesh.triangles[t].alive() && is_new(t);
-  std::vector<TriangleId> open;
-  const auto enter = [&](TriangleId t) {
-    if (is_left[t]) open.push_back(t);
-    is_left[t] = false;
-  };
-  for (const TriangleId first : ids_of(new_mesh.triangles))
-    for (enter(first); !open.empty();) {
-      const TriangleId t = open.back();
-      open.pop_back();
-      search({new_mesh.corner(t, 0), new_mesh.corner(t, 1), new_mesh.corner(t, 2)},
-             [&](TriangleId old, const CommonPolygon& polygon) {
-               const double area = area_of(polygon);
-               if (!(area > 0)) return;
-               const auto begin = static_cast<std::uint32_t>(found.corners.size());
-               found.corners.insert(found.corners.end(), polygon.begin(), polygon.end());
-               found.overlaps.push_back({old, t, begin, static_cast<std::uint32_t>(found.corners.size()), area});
-             });
-      for (int i = 0; i < 3; ++i)
-        if (const HalfEdge beyond = new_mesh.across(half_edge(t, i)); beyond != kNone) enter(triangle_of(beyond));
-    }
+  while (found.overlaps.size() < most && next_triangle()) {
+    const TriangleId t = open_.back();
+    open_.pop_back();
+    (*search_)({new_mesh_.corner(t, 0), new_mesh_.corner(t, 1), new_mesh_.corner(t, 2)},
+               [&](TriangleId old, const CommonPolygon& polygon) {
+                 const double area = area_of(polygon);
+                 if (!(area > 0)) return;
+                 const auto begin = static_cast<std::uint32_t>(found.corners.size());
+                 found.corners.insert(found.corners.end(), polygon.begin(), polygon.end());
+                 found.overlaps.push_back({old, t, begin, static_cast<std::uint32_t>(found.corners.size()), area});
+               });
+    for (int i = 0; i < 3; ++i)
+      if (const HalfEdge beyond = new_mesh_.across(half_edge(t, i)); beyond != kNone) enter(triangle_of(beyond));
+  }
+  return true;
 }
 
 }  // namespace driftmesh::adapt

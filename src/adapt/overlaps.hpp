@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "driftmesh/id_vector.hpp"
 #include "driftmesh/point.hpp"
 #include "mesh/triangulation.hpp"
 
@@ -32,10 +34,30 @@ struct OverlapList {
   }
 };
 
-/// Finds all overlaps of new triangles that `is_new` names with old ones, and puts them into `found` in place of what
-/// is there. Both meshes cover the same polygon. Overlaps are rounded: those of an old triangle sum up to its area but
-/// for some 1e-15 of its size.
-void find_overlaps(const Triangulation& old_mesh, const Triangulation& new_mesh,
-                   const std::function<bool(TriangleId)>& is_new, OverlapList& found);
+/// Finds all overlaps of new triangles that `is_new` names with old ones, some at a time. Both meshes cover the same
+/// polygon. Overlaps are rounded: those of an old triangle sum up to its area but for some 1e-15 of its size.
+class OverlapFinder {
+ public:
+  /// The meshes outlive the object.
+  OverlapFinder(const Triangulation& old_mesh, const Triangulation& new_mesh,
+                const std::function<bool(TriangleId)>& is_new);
+  ~OverlapFinder();
+
+  /// Puts the next ones, all of a new triangle or none, into `found` in place of what is there, at least `most` of them
+  /// if there are as many. False, and nothing is put there: no triangles are left.
+  bool find(std::size_t most, OverlapList& found);
+
+ private:
+  class Search;
+  void enter(TriangleId t);
+  bool next_triangle();
+
+  const Triangulation& new_mesh_;
+  std::unique_ptr<Search> search_;
+  // From each triangle to one beside it, so that the search finds the next one near the last one.
+  IdVector<TriangleId, bool> is_left_;
+  std::size_t first_ = 0;  // those before have been entered
+  std::vector<TriangleId> open_;
+};
 
 }  // namespace driftmesh::adapt

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/cores.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/repair.hpp"
 #include "mesh/bounds.hpp"
@@ -24,6 +25,7 @@ void require_in_range(const PartOptions& options) {
   require(sizes.most_triangles >= 0, "sizes.most_triangles", sizes.most_triangles, "at least 0");
   require(options.min_angle >= 0 && options.min_angle <= kMaxAngle, "min_angle", options.min_angle,
           "from 0 to " + std::to_string(kMaxAngle) + " degrees");
+  require(options.threads >= 0, "threads", options.threads, "at least 0");
   require(options.tolerance >= 0, "tolerance", options.tolerance, "at least 0");
 }
 
@@ -44,8 +46,9 @@ AdaptedMesh adapted(Mesh mesh, patch::Order order, const PartOptions& options) {
   order.lengths = options.lengths;
   order.options = options.sizes;
   order.min_angle = options.min_angle;
+  order.threads = threads_or_cores(options.threads);
   std::vector<adapt::Field> fields = fields_of(mesh, options.conserve);
-  patch::Remade remade = patch::remake(std::move(mesh), std::move(fields), order);
+  patch::Remade remade = patch::remake(std::move(mesh), std::move(fields), std::move(order));
   patch::give_point_data(remade.mesh, remade.fields);
   return {.mesh = std::move(remade.mesh),
           .old_points = std::move(remade.old_points),

@@ -21,6 +21,7 @@ struct AdaptCommand {
   std::string map;
   double angle = defaults::kMinAngle;
   AdaptiveOptions options;
+  int threads = 0;  ///< 0: one for each core
   bool quiet = false;
   ReadOptions reading;
 };

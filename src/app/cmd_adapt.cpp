@@ -21,6 +21,7 @@
 #include "app/progress_line.hpp"
 #include "app/request_line.hpp"
 #include "app/run_files.hpp"
+#include "base/cores.hpp"
 #include "base/staged_files.hpp"
 #include "base/standard_streams.hpp"
 #include "base/stopwatch.hpp"
@@ -164,10 +165,12 @@ class StageNotes final : public job::Watch {
 };
 
 /// If more than half has to change, all does.
-patch::Unmet what_is_to_change(const Mesh& mesh, const patch::Order& order, const AdaptCommand& command) {
+patch::Unmet what_is_to_change(const Mesh& mesh, patch::Order& order, const AdaptCommand& command) {
   patch::Unmet unmet;
   try {
-    unmet = patch::find_unmet(mesh, order.lengths, order.options, order.min_angle, command.threshold);
+    order.linked = patch::link(mesh);
+    unmet = patch::find_unmet(mesh, order.linked->triangulation, order.lengths, order.options, order.min_angle,
+                              command.threshold);
   } catch (const Error& error) {
     throw InputError(command.mesh + ": " + error.what());
   }
@@ -196,7 +199,8 @@ void run_adapt(const AdaptCommand& command) {
   Mesh mesh = job::timed(notes, "read", [&] { return read_any_mesh(command.mesh, command.reading, data); });
   const std::size_t before = mesh.triangles.size();
   NamedFields named = take_data(mesh, std::move(data));
-  patch::Order order{.options = command.options, .min_angle = command.angle};
+  patch::Order order{
+      .options = command.options, .min_angle = command.angle, .threads = threads_or_cores(command.threads)};
   if (!command.lengths.empty()) order.lengths = lengths_of(named, command);
   apply_transfers(named, command);
   patch::Unmet unmet;
@@ -216,7 +220,7 @@ void run_adapt(const AdaptCommand& command) {
   for (patch::NamedField& field : named) fields.push_back(std::move(field.field));  // names stay, in their order
   patch::Remade remade = job::timed(notes, "remake", [&] {
     try {
-      return patch::remake(std::move(mesh), std::move(fields), order);
+      return patch::remake(std::move(mesh), std::move(fields), std::move(order));
     } catch (const LimitError&) {
       throw;
     } catch (const InputError&) {
@@ -320,6 +324,11 @@ std::vector<cli::Option> adapt_options(AdaptCommand& command) {
        .value = "COUNT",
        .help = "Stop if what is made anew would have more triangles",
        .take = cli::into(command.options.most_triangles, {.least = 0, .most = kMost, .above = true})},
+      {.name = "threads",
+       .value = "N",
+       .help = "Number of threads, on which nothing depends but time; 0: as many as the machine has cores",
+       .standard = "0",
+       .take = cli::into(command.threads, {0, 1024})},
       {.kind = cli::Option::Kind::kFlag,
        .name = "quiet",
        .help = "Print no summary and no progress",

@@ -246,6 +246,7 @@ Triangulation triangulate(const Pslg& pslg, CarveReport* report) {
 
 Triangulation triangulate(const Pslg& pslg, const std::vector<SegmentSides>& sides) {
   DM_ASSERT(sides.size() == pslg.segments.size());
+  DM_ASSERT(std::ranges::all_of(pslg.segments, [](const Pslg::Segment& s) { return s.a < s.b; }));
   Triangulation mesh = triangulate_box(pslg);
   carve(mesh, sides, mesh.roots.size() - sides.size());
   renumber(mesh, GivenVertices::kSorted);

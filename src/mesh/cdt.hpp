@@ -19,8 +19,9 @@ namespace driftmesh {
 [[nodiscard]] Triangulation triangulate(const Pslg& pslg, CarveReport* report = nullptr);
 
 /// The same for a domain that is defined by the sides of its segments, one entry for each of pslg.segments, instead of
-/// by hole and region points: the domain is what can be reached from an inner side without crossing a segment. Every
-/// segment needs an inner side. Region labels are those of the sides; the array is empty if all of them are equal to 0.
+/// by hole and region points, each with the lower one of its points first: the domain is what can be reached from an
+/// inner side without crossing a segment. Every segment needs an inner side. Region labels are those of the sides; the
+/// array is empty if all of them are equal to 0.
 [[nodiscard]] Triangulation triangulate(const Pslg& pslg, const std::vector<SegmentSides>& sides);
 
 }  // namespace driftmesh

@@ -8,9 +8,14 @@
 #include "driftmesh/error.hpp"
 #include "geometry/predicates.hpp"
 #include "mesh/cdt.hpp"
+#include "mesh/corners.hpp"
 #include "mesh/exceptions.hpp"
 #include "mesh/fixed_corners.hpp"
+#include "mesh/forecast.hpp"
 #include "mesh/refiner.hpp"
+#include "mesh/to_piece.hpp"
+#include "patch/in_subdomains.hpp"
+#include "runtime/plan_run.hpp"
 
 namespace driftmesh::patch {
 namespace {
@@ -21,6 +26,12 @@ IdVector<RootId, bool> fixed_roots(const Triangulation& mesh, const Domain& doma
   IdVector<RootId, bool> fixed(mesh.roots.size(), false);
   for (const RootId r : ids_of(mesh.roots)) fixed[r] = domain.fixed[to_index(r)];
   return fixed;
+}
+
+/// Whether nothing stays beside it, so that refinement may split and delete as it wants to.
+bool is_whole(const Domain& domain) {
+  return std::ranges::find(domain.fixed, true) == domain.fixed.end() &&
+         std::ranges::find(domain.free, true) == domain.free.end();
 }
 
 class Judge {
@@ -127,24 +138,28 @@ class Judge {
 
 }  // namespace
 
-Attempt attempt(Domain domain, const Part& part, const Extent& extent, const OldPlaces& old,
-                const QualityBounds& bounds, std::int64_t most_triangles) {
-  Attempt made;
-  made.domain = std::move(domain);
-  made.mesh = triangulate(made.domain.pslg, made.domain.sides);
-  for (VertexOrigin& origin : made.mesh.origin)
-    if (is_input(origin) && made.domain.free[to_index(origin)]) origin = kFree;
-  const IdVector<RootId, bool> fixed = fixed_roots(made.mesh, made.domain);
-  static_cast<void>(prepare_corners(made.mesh, {bounds.min_angle, false, bounds.rules}, fixed));
-  RefinerState state = RefinerState::at_start(made.mesh, bounds);
+Attempt attempt(const Domain& domain, const Part& part, const Extent& extent, const OldPlaces& old,
+                QualityBounds bounds, std::span<const SizeField* const> sizes, std::int64_t most_triangles) {
+  bounds.size = sizes.front();
+  Triangulation mesh = triangulate(domain.pslg, domain.sides);
+  const IdVector<RootId, bool> fixed = fixed_roots(mesh, domain);
+  if (is_whole(domain))
+    if (const double forecast = forecast_triangles(mesh, bounds); is_worth_cutting(mesh, forecast)) {
+      static_cast<void>(prepare_corners(mesh));
+      return {refine_in_subdomains(mesh, domain.pslg, bounds, sizes, forecast, most_triangles), {}};
+    }
+  for (VertexOrigin& origin : mesh.origin)
+    if (is_input(origin) && domain.free[to_index(origin)]) origin = kFree;
+  static_cast<void>(prepare_corners(mesh, {bounds.min_angle, false, bounds.rules}, fixed));
+  RefinerState state = RefinerState::at_start(mesh, bounds);
   for (const RootId r : ids_of(fixed))
-    if (fixed[r]) state.unsplittable.insert(made.mesh.roots[r].tree);
-  Refiner refiner(made.mesh, bounds, std::move(state));
+    if (fixed[r]) state.unsplittable.insert(mesh.roots[r].tree);
+  Refiner refiner(mesh, bounds, std::move(state));
   refiner.limit_triangles(most_triangles);
-  if (refiner.refine() != Refiner::Status::kDone)
-    throw LimitError("lengths ask for more than " + std::to_string(most_triangles) +
-                     " triangles in what is made anew; ask for longer ones, or allow more triangles");
-  made.tight = Judge(made.mesh, part, extent, old).tight(bounds, made.domain);
+  if (refiner.refine() != Refiner::Status::kDone) refuse_many(most_triangles);
+  Attempt made;
+  made.tight = Judge(mesh, part, extent, old).tight(bounds, domain);
+  made.mesh = to_piece(mesh, domain.pslg);
   return made;
 }
 

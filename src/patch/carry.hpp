@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "adapt/fields.hpp"
@@ -13,6 +14,6 @@ namespace driftmesh::patch {
 /// What is interpolated at triangles is the value of the old triangle in which the center of the new one lies, or of
 /// that nearest to it. `before`: the old part.
 void carry(std::vector<adapt::Field>& fields, const Part& part, const NewPart& made, Triangulation before,
-           const Numbers& numbers);
+           const Numbers& numbers, std::int32_t threads);
 
 }  // namespace driftmesh::patch

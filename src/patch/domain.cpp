@@ -227,7 +227,9 @@ class Builder {
       domain.sides.push_back(a < b ? border.sides : SegmentSides{border.sides.right, border.sides.left});
       domain.fixed.push_back(border.fixed);
     }
-    domain.regions = labels_.attributes;
+    for (const double attribute : labels_.attributes)
+      domain.pslg.regions.push_back({.at = {}, .attribute = attribute, .max_area = 0});
+    domain.pslg.regions.erase(domain.pslg.regions.begin());  // what has no region
     return domain;
   }
 

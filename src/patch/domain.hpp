@@ -13,11 +13,10 @@ namespace driftmesh::patch {
 
 /// What is to be triangulated anew.
 struct Domain {
-  Pslg pslg;  ///< without polygons, holes and regions; its markers of points are those of new ones
+  Pslg pslg;  ///< without polygons, holes and places of regions; its markers of points are those of new ones
   std::vector<SegmentSides> sides;  ///< one for each of its segments
   std::vector<bool> fixed;          ///< segments that nothing may split: beyond them everything stays
   std::vector<bool> free;           ///< points that refinement may delete
-  std::vector<double> regions;      ///< the attribute of each region label
 };
 
 /// What of a part is triangulated anew, and how far.

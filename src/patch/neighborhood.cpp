@@ -24,6 +24,7 @@ std::vector<std::uint8_t> Neighborhood::points_of_taken() const {
 }
 
 bool Neighborhood::take_at(std::vector<std::uint8_t> marked, int layers) {
+  if (std::ranges::find(taken_, 0) == taken_.end()) return false;
   bool any = false;
   std::vector<std::size_t> found;
   for (int layer = 0; layer < layers; ++layer) {

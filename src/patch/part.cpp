@@ -1,10 +1,10 @@
 #include "patch/part.hpp"
 
-#include <string>
+#include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "driftmesh/error.hpp"
-#include "mesh/link_triangles.hpp"
 
 namespace driftmesh::patch {
 
@@ -36,29 +36,103 @@ Part part_of(const Mesh& mesh, std::vector<std::int32_t> triangles) {
   return part;
 }
 
+Linked link(const Mesh& mesh) {
+  Linked linked{triangle_neighbors(mesh), {}};
+  linked.triangulation = triangulation_of(mesh, linked.beyond);
+  return linked;
+}
+
+std::optional<Part> whole_part(const Mesh& mesh, Linked& linked) {
+  std::vector<bool> used(mesh.points.size(), false);
+  for (const auto& corners : mesh.triangles)
+    for (const std::int32_t v : corners) used[to_index(v)] = true;
+  if (std::ranges::find(used, false) != used.end()) return {};
+  const auto all = [](std::size_t count) {
+    std::vector<std::int32_t> numbers(count);
+    std::iota(numbers.begin(), numbers.end(), 0);
+    return numbers;
+  };
+  Part part{all(mesh.triangles.size()), all(mesh.points.size()), all(mesh.edges.size()), {}, std::move(linked.beyond)};
+  part.mesh.points = mesh.points;
+  part.mesh.point_markers = mesh.point_markers;
+  part.mesh.triangles = mesh.triangles;
+  part.mesh.regions = mesh.regions;
+  part.mesh.edges = mesh.edges;
+  return part;
+}
+
 namespace {
 
-void link_or_refuse(Triangulation& made) {
-  try {
-    link_triangles(made);
-  } catch (const Error& error) {
-    throw Error(std::string(error.what()) + "; look for the place with driftmesh check");
+[[noreturn]] void refuse() {
+  throw Error("triangles do not fit together along their edges; look for the place with driftmesh check");
+}
+
+/// Edges that have one triangle.
+class Rim {
+ public:
+  explicit Rim(std::size_t points) : has_(points, false) {}
+  void add(std::int32_t a, std::int32_t b) {
+    edges_.emplace_back(std::min(a, b), std::max(a, b));
+    has_[to_index(a)] = has_[to_index(b)] = true;
   }
+  /// Refuses edges that it has twice.
+  void close() {
+    std::ranges::sort(edges_);
+    if (std::ranges::adjacent_find(edges_) != edges_.end()) refuse();
+  }
+  [[nodiscard]] bool has(std::int32_t a, std::int32_t b) const {
+    return has_[to_index(a)] && has_[to_index(b)] &&
+           std::ranges::binary_search(edges_, std::pair(std::min(a, b), std::max(a, b)));
+  }
+
+ private:
+  std::vector<bool> has_;  // points
+  std::vector<std::pair<std::int32_t, std::int32_t>> edges_;
+};
+
+/// The corner of triangle `other` opposite the edge from b to a, beyond which is triangle t.
+int corner_beyond(const Mesh& mesh, const TriangleNeighbors& beyond, std::int32_t other, std::int32_t t, std::int32_t a,
+                  std::int32_t b) {
+  const auto& corners = mesh.triangles[to_index(other)];
+  for (int j = 0; j < 3; ++j)
+    if (beyond[to_index(other)][to_index(j)] == t && corners[to_index(next(j))] == b &&
+        corners[to_index(previous(j))] == a)
+      return j;
+  refuse();
 }
 
 }  // namespace
 
 Triangulation triangulation_of(const Mesh& mesh, const TriangleNeighbors& beyond) {
   Triangulation made;
+  made.points.reserve(mesh.points.size());
+  made.triangles.reserve(mesh.triangles.size());
   for (std::size_t v = 0; v < mesh.points.size(); ++v) made.add_vertex(mesh.points[v], static_cast<VertexOrigin>(v));
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& corners = mesh.triangles[t];
-    auto& vertex = made.triangles[made.add_triangle()].vertex;
-    for (int i = 0; i < 3; ++i) vertex[i] = VertexId{corners[to_index(i)]};
-    for (std::size_t i = 0; i < 3; ++i)
-      if (beyond[t][i] < 0) made.add_root(VertexId{corners[(i + 1) % 3]}, VertexId{corners[(i + 2) % 3]}, 0, kNone);
+  Rim rim(mesh.points.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& corners = mesh.triangles[i];
+    const TriangleId t = made.add_triangle();
+    for (int k = 0; k < 3; ++k) {
+      made.triangles[t].vertex[k] = VertexId{corners[to_index(k)]};
+      const std::int32_t a = corners[to_index(next(k))], b = corners[to_index(previous(k))];
+      const std::int32_t other = beyond[i][to_index(k)];
+      if (other >= 0) {
+        made.triangles[t].neighbor[k] =
+            half_edge(TriangleId{other}, corner_beyond(mesh, beyond, other, static_cast<std::int32_t>(i), a, b));
+        continue;
+      }
+      rim.add(a, b);
+      const SubsegmentId segment = made.roots[made.add_root(VertexId{a}, VertexId{b}, 0, kNone)].tree;
+      made.subsegments[segment].half = {half_edge(t, k), kNone};
+      made.triangles[t].neighbor[k] = constrained(segment);
+    }
   }
-  link_or_refuse(made);
+  rim.close();
+  for (const TriangleId t : ids_of(made.triangles))
+    for (int k = 0; k < 3; ++k)
+      if (made.across(half_edge(t, k)) != kNone &&
+          rim.has(to_int(made.triangles[t].vertex[next(k)]), to_int(made.triangles[t].vertex[previous(k)])))
+        refuse();
   return made;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <optional>
 #include <vector>
 
 #include "driftmesh/mesh.hpp"
@@ -21,6 +21,17 @@ struct Part {
 
 /// `triangles`: ascending.
 [[nodiscard]] Part part_of(const Mesh& mesh, std::vector<std::int32_t> triangles);
+
+/// A mesh whose triangles know their neighbors.
+struct Linked {
+  TriangleNeighbors beyond;
+  Triangulation triangulation;  ///< see triangulation_of
+};
+[[nodiscard]] Linked link(const Mesh& mesh);
+
+/// All of a mesh as a part, with what of it is linked already; `linked` is left without neighbors. Nothing: it has
+/// points without triangles.
+[[nodiscard]] std::optional<Part> whole_part(const Mesh& mesh, Linked& linked);
 
 /// The triangles with their neighbors; all edges without a second triangle are segments. Vertex and triangle numbers
 /// are those of the mesh. Throws Error if triangles do not fit together.

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "adapt/linear_lengths.hpp"
 #include "adapt/locator.hpp"
 #include "driftmesh/error.hpp"
 #include "geometry/predicates.hpp"
@@ -50,9 +54,9 @@ void require_counterclockwise(const Part& part) {
 }
 
 /// A mesh of a program that lists no edges has those of its boundary.
-void list_boundary(Mesh& mesh) {
+void list_boundary(Mesh& mesh, const std::optional<Linked>& linked) {
   if (!mesh.edges.empty()) return;
-  const TriangleNeighbors beyond = triangle_neighbors(mesh);
+  const TriangleNeighbors beyond = linked ? linked->beyond : triangle_neighbors(mesh);
   for (std::size_t t = 0; t < beyond.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i)
       if (beyond[t][i] < 0) mesh.edges.push_back({mesh.triangles[t][(i + 1) % 3], mesh.triangles[t][(i + 2) % 3], 0});
@@ -84,6 +88,24 @@ Extent extent_of(const Mesh& mesh, const Part& part, const Neighborhood& taken, 
     std::ranges::for_each(weir.across, hold);
   }
   return extent;
+}
+
+struct LinkedPart {
+  Part part;
+  Triangulation triangulation;
+};
+
+LinkedPart linked_part(const Mesh& mesh, const Neighborhood& taken, std::optional<Linked>& linked) {
+  std::vector<std::int32_t> triangles = taken.with_rim();
+  if (linked && triangles.size() == mesh.triangles.size())
+    if (std::optional<Part> whole = whole_part(mesh, *linked)) {
+      LinkedPart all{*std::move(whole), std::move(linked->triangulation)};
+      linked.reset();
+      return all;
+    }
+  LinkedPart some{part_of(mesh, std::move(triangles)), {}};
+  some.triangulation = triangulation_of(some.part.mesh, some.part.beyond);
+  return some;
 }
 
 /// A distance from what was inside within which all points of triangles are that are gone: looks along edges for points
@@ -174,37 +196,52 @@ std::int64_t points_beyond(const Triangulation& before, const NewPart& made) {
   return count;
 }
 
+/// Lengths as a size field, an object for each thread.
+class Sizes {
+ public:
+  Sizes(const Triangulation& mesh, const adapt::Lengths& lengths, std::int32_t threads) {
+    for (std::int32_t i = 0; i < threads; ++i) {
+      fields_.push_back(std::make_unique<adapt::LinearLengths>(mesh, lengths));
+      all_.push_back(fields_.back().get());
+    }
+  }
+  [[nodiscard]] std::span<const SizeField* const> all() const { return all_; }
+
+ private:
+  std::vector<std::unique_ptr<adapt::LinearLengths>> fields_;
+  std::vector<const SizeField*> all_;
+};
+
 }  // namespace
 
-Remade remake(Mesh mesh, std::vector<adapt::Field> fields, const Order& order) {
+Remade remake(Mesh mesh, std::vector<adapt::Field> fields, Order order) {
   require_lengths(mesh, order.lengths);
-  std::vector<bool> inside = order.inside;
+  std::vector<bool> inside = std::move(order.inside);
   const OutlineChange change = change_of(mesh, fields, order, inside);
   if (std::ranges::find(inside, true) == inside.end()) {
     Remade same = unchanged(std::move(mesh), std::move(fields));
     same.report.other_markers = change.other_markers;
     return same;
   }
-  list_boundary(mesh);
+  list_boundary(mesh, order.linked);
   const double most = order.options.most_triangles;
   Neighborhood taken(mesh, inside);
   taken.grow(kLayers);
   for (int round = 0;; ++round) {
-    const Part part = part_of(mesh, taken.with_rim());
+    auto [part, before] = linked_part(mesh, taken, order.linked);
     require_counterclockwise(part);
-    const OldPlaces old(part.mesh);
     Extent extent = extent_of(mesh, part, taken, inside);
+    const OldPlaces old(part.mesh);
     if (order.domain != nullptr) apply(change, part, old, extent);
-    Triangulation before = triangulation_of(part.mesh, part.beyond);
     const adapt::Lengths lengths = lengths_in(part, before, extent, order.lengths, order.options);
-    const adapt::LinearLengths sizes(before, lengths);
+    const Domain domain = domain_of(part, extent, old);
     const Attempt made =
-        attempt(domain_of(part, extent, old), part, extent, old, {.min_angle = order.min_angle, .size = &sizes},
+        attempt(domain, part, extent, old, {.min_angle = order.min_angle}, Sizes(before, lengths, order.threads).all(),
                 most > 0 ? static_cast<std::int64_t>(most) : kMostRefined);
     if (!made.tight.empty() && round < kMostRounds &&
         taken.grow_around(numbers_in_whole(part, made.tight), kLayers + round))
       continue;
-    const NewPart next = new_part(made, part, extent, old);
+    const NewPart next = new_part(made.mesh, domain, part, extent, old);
     Remade remade;
     remade.report = report_of(part, extent, next);
     if (order.domain != nullptr) {
@@ -214,7 +251,7 @@ Remade remake(Mesh mesh, std::vector<adapt::Field> fields, const Order& order) {
       remade.report.beyond = points_beyond(before, next);
     }
     const Numbers numbers = splice(mesh, part, extent, next);
-    carry(fields, part, next, std::move(before), numbers);
+    carry(fields, part, next, std::move(before), numbers, order.threads);
     remade.mesh = std::move(mesh);
     remade.fields = std::move(fields);
     remade.old_points = numbers.old_points;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "adapt/fields.hpp"
@@ -8,6 +9,7 @@
 #include "driftmesh/defaults.hpp"
 #include "driftmesh/mesh.hpp"
 #include "patch/new_outline.hpp"
+#include "patch/part.hpp"
 
 namespace driftmesh::patch {
 
@@ -17,6 +19,8 @@ struct Order {
   std::vector<double> lengths{};  ///< wanted, one for each point; empty: those that the triangles have
   AdaptiveOptions options{};      ///< for lengths; most_triangles: what is made anew has no more; 0: no limit
   double min_angle = defaults::kMinAngle;
+  std::int32_t threads = 1;           ///< of this process; nothing depends on their number but time
+  std::optional<Linked> linked{};     ///< the mesh, if that is there already
   const NewDomain* domain = nullptr;  ///< null: that of the mesh; else what differs is made anew, too
 };
 
@@ -52,6 +56,6 @@ struct Remade {
 ///
 /// With a new domain, what is to be made anew is all that compare_outlines finds. Where the new domain is beyond the
 /// old mesh, lengths and fields are those at the nearest place of it that is taken. Edges that stay keep their markers.
-[[nodiscard]] Remade remake(Mesh mesh, std::vector<adapt::Field> fields, const Order& order);
+[[nodiscard]] Remade remake(Mesh mesh, std::vector<adapt::Field> fields, Order order);
 
 }  // namespace driftmesh::patch

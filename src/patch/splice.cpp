@@ -10,23 +10,55 @@ namespace {
 
 constexpr std::int32_t kNew = -1;
 
+using Ends = std::pair<std::int32_t, std::int32_t>;
+
+Ends ends_of(std::int32_t a, std::int32_t b) {
+  return {std::min(a, b), std::max(a, b)};
+}
+
 class Maker {
  public:
-  Maker(const Attempt& made, const Part& part, const Extent& extent, const OldPlaces& old)
-      : made_(made), part_(part), extent_(extent), old_(old), number_(made.mesh.points.size(), kNone) {}
+  Maker(const Mesh& made, const Domain& domain, const Part& part, const Extent& extent, const OldPlaces& old)
+      : made_(made), domain_(domain), part_(part), extent_(extent), old_(old) {}
 
   NewPart run() {
-    add_made_points();
-    for (const TriangleId t : ids_of(made_.mesh.triangles))
-      if (made_.mesh.triangles[t].alive()) add_made(t);
+    reserve();
+    look_at_domain();
+    for (std::size_t v = 0; v < made_.points.size(); ++v) add_made_point(v);
+    for (std::size_t t = 0; t < made_.triangles.size(); ++t) add_made(t);
     new_.triangles_made = new_.mesh.triangles.size();
-    mark_segments();
+    new_.mesh.subdomains = made_.subdomains;
+    for (const Mesh::Edge& edge : made_.edges) add_edge(edge);
     add_beyond();
     return std::move(new_);
   }
 
  private:
   [[nodiscard]] bool has_markers() const { return !part_.mesh.point_markers.empty(); }
+  [[nodiscard]] bool has_regions() const { return !part_.mesh.regions.empty(); }
+
+  void reserve() {
+    const std::size_t points = made_.points.size(), triangles = made_.triangles.size();
+    new_.mesh.points.reserve(points);
+    new_.old_point.reserve(points);
+    if (has_markers()) new_.mesh.point_markers.reserve(points);
+    new_.mesh.triangles.reserve(triangles);
+    new_.old_triangle.reserve(triangles);
+    if (has_regions()) new_.mesh.regions.reserve(triangles);
+  }
+
+  void look_at_domain() {
+    for (std::size_t i = 0; i < domain_.fixed.size(); ++i)
+      if (domain_.fixed[i]) {
+        const Pslg::Segment& s = domain_.pslg.segments[i];
+        fixed_.push_back(ends_of(old_.point_at(domain_.pslg.points[to_index(s.a)]),
+                                 old_.point_at(domain_.pslg.points[to_index(s.b)])));
+      }
+    std::ranges::sort(fixed_);
+    for (std::size_t i = 0; i < domain_.pslg.points.size(); ++i)
+      if (const std::int32_t marker = domain_.pslg.point_markers[i]; marker != 0)
+        end_markers_[{domain_.pslg.points[i].x, domain_.pslg.points[i].y}] = marker;
+  }
 
   void add_point(const Point& p, std::int32_t old, std::int32_t marker) {
     new_.mesh.points.push_back(p);
@@ -34,25 +66,19 @@ class Maker {
     if (has_markers()) new_.mesh.point_markers.push_back(marker);
   }
 
-  void add_made_points() {
-    for (const VertexId v : ids_of(made_.mesh.points)) {
-      if (made_.mesh.origin[v] == kDeleted) continue;
-      const std::int32_t old = old_.point_at(made_.mesh.points[v]);
-      number_[v] = static_cast<std::int32_t>(new_.mesh.points.size());
-      const VertexOrigin origin = made_.mesh.origin[v];
-      std::int32_t marker = old >= 0 && has_markers() ? part_.mesh.point_markers[to_index(old)] : 0;
-      if (marker == 0 && is_input(origin)) marker = made_.domain.pslg.point_markers[to_index(origin)];
-      add_point(old < 0 ? made_.mesh.points[v] : part_.mesh.points[to_index(old)], old, marker);
-    }
+  void add_made_point(std::size_t v) {
+    const Point& p = made_.points[v];
+    const std::int32_t old = old_.point_at(p);
+    std::int32_t marker = old >= 0 && has_markers() ? part_.mesh.point_markers[to_index(old)] : 0;
+    if (marker == 0 && !end_markers_.empty())
+      if (const auto end = end_markers_.find({p.x, p.y}); end != end_markers_.end()) marker = end->second;
+    add_point(old < 0 ? p : part_.mesh.points[to_index(old)], old, marker);
   }
 
   /// A triangle that stays begins with the corner that it began with.
-  void add_made(TriangleId t) {
-    std::array<std::int32_t, 3> corners{}, old{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      corners[i] = number_[made_.mesh.triangles[t].vertex[static_cast<int>(i)]];
-      old[i] = new_.old_point[to_index(corners[i])];
-    }
+  void add_made(std::size_t t) {
+    std::array<std::int32_t, 3> corners = made_.triangles[t], old{};
+    for (std::size_t i = 0; i < 3; ++i) old[i] = new_.old_point[to_index(corners[i])];
     const bool known = std::ranges::all_of(old, [](std::int32_t v) { return v >= 0; });
     const std::int32_t same = known ? old_.triangle_of(old) : kNew;
     if (same >= 0)
@@ -62,28 +88,18 @@ class Maker {
       }
     new_.mesh.triangles.push_back(corners);
     new_.old_triangle.push_back(same);
-    if (!part_.mesh.regions.empty())
-      new_.mesh.regions.push_back(made_.domain.regions[made_.mesh.region.empty() ? 0 : made_.mesh.region[t]]);
+    if (has_regions()) new_.mesh.regions.push_back(made_.regions.empty() ? 0 : made_.regions[t]);
   }
 
-  void mark_segments() {
-    for (const Subsegment& s : made_.mesh.subsegments) {
-      if (!s.is_leaf()) continue;
-      const std::int32_t a = number_[s.vertex[0]], b = number_[s.vertex[1]];
-      const std::int32_t marker = made_.mesh.roots[s.root].marker;
-      if (!is_fixed(s.root) || is_listed(a, b)) new_.mesh.edges.push_back({a, b, marker});
-      if (has_markers())
-        for (const std::int32_t v : {a, b})
-          if (new_.old_point[to_index(v)] < 0 && new_.mesh.point_markers[to_index(v)] == 0)
-            new_.mesh.point_markers[to_index(v)] = marker;
-    }
-  }
-
-  [[nodiscard]] bool is_fixed(RootId root) const {
-    return to_index(root) < made_.domain.fixed.size() && made_.domain.fixed[to_index(root)];
-  }
-  [[nodiscard]] bool is_listed(std::int32_t a, std::int32_t b) const {
-    return index_.find(new_.old_point[to_index(a)], new_.old_point[to_index(b)]) >= 0;
+  /// Of the edges between what is made and what stays only those that were listed.
+  void add_edge(const Mesh::Edge& edge) {
+    const std::array<std::int32_t, 2> old{new_.old_point[to_index(edge.a)], new_.old_point[to_index(edge.b)]};
+    if (!std::ranges::binary_search(fixed_, ends_of(old[0], old[1])) || index_.find(old[0], old[1]) >= 0)
+      new_.mesh.edges.push_back(edge);
+    if (!has_markers()) return;
+    for (const std::int32_t v : {edge.a, edge.b})
+      if (new_.old_point[to_index(v)] < 0 && new_.mesh.point_markers[to_index(v)] == 0)
+        new_.mesh.point_markers[to_index(v)] = edge.marker;
   }
 
   /// The triangles of the part that were not taken.
@@ -108,12 +124,14 @@ class Maker {
     }
   }
 
-  const Attempt& made_;
+  const Mesh& made_;
+  const Domain& domain_;
   const Part& part_;
   const Extent& extent_;
   const OldPlaces& old_;
   ConstrainedEdgeIndex index_{part_.mesh};
-  IdVector<VertexId, std::int32_t> number_;
+  std::vector<Ends> fixed_;                                        // segments that nothing has split, by old points
+  std::map<std::pair<double, double>, std::int32_t> end_markers_;  // of points of the domain that have one
   NewPart new_;
 };
 
@@ -169,6 +187,7 @@ class Splicing {
 
   Numbers run() {
     number_points();
+    begin_subdomains();
     number_triangles();
     put_edges();
     move_the_last();
@@ -195,6 +214,14 @@ class Splicing {
     }
   }
 
+  /// Edges between subdomains need not be Delaunay. What is made anew is one of its own, or several.
+  void begin_subdomains() {
+    const bool all = std::ranges::find(extent_.taken, false) == extent_.taken.end();
+    if (all && part_.triangle.size() == mesh_.triangles.size()) mesh_.subdomains.clear();
+    if (!mesh_.subdomains.empty()) own_subdomain_ = 1 + *std::ranges::max_element(mesh_.subdomains);
+    if (mesh_.subdomains.empty() && !made_.mesh.subdomains.empty()) mesh_.subdomains.resize(mesh_.triangles.size());
+  }
+
   void number_triangles() {
     std::vector<bool> gone = extent_.taken;
     for (const std::int32_t old : made_.old_triangle)
@@ -209,7 +236,8 @@ class Splicing {
       put(mesh_.triangles, number, {point(a), point(b), point(c)});
       if (!mesh_.regions.empty()) put(mesh_.regions, number, made_.mesh.regions[t]);
       if (old >= 0) continue;
-      if (!mesh_.subdomains.empty()) put(mesh_.subdomains, number, own_subdomain_);
+      if (!mesh_.subdomains.empty())
+        put(mesh_.subdomains, number, own_subdomain_ + (made_.mesh.subdomains.empty() ? 0 : made_.mesh.subdomains[t]));
       if (!mesh_.ranks.empty()) put(mesh_.ranks, number, 0);
     }
   }
@@ -312,17 +340,16 @@ class Splicing {
   const NewPart& made_;
   ConstrainedEdgeIndex index_{part_.mesh};
   Numbering points_{mesh_.points.size()}, triangles_{mesh_.triangles.size()};
-  // Edges between subdomains need not be Delaunay. What is made anew is one of its own.
-  std::int32_t own_subdomain_ = mesh_.subdomains.empty() ? 0 : 1 + *std::ranges::max_element(mesh_.subdomains);
-  std::vector<bool> gone_points_;  // those of the part
+  std::int32_t own_subdomain_ = 0;  // the first of those that are made anew
+  std::vector<bool> gone_points_;   // those of the part
   std::map<std::int32_t, std::int32_t> moved_points_, moved_triangles_;
   Numbers numbers_;
 };
 
 }  // namespace
 
-NewPart new_part(const Attempt& made, const Part& part, const Extent& extent, const OldPlaces& old) {
-  return Maker(made, part, extent, old).run();
+NewPart new_part(const Mesh& made, const Domain& domain, const Part& part, const Extent& extent, const OldPlaces& old) {
+  return Maker(made, domain, part, extent, old).run();
 }
 
 Numbers splice(Mesh& mesh, const Part& part, const Extent& extent, const NewPart& made) {

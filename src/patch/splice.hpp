@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "driftmesh/mesh.hpp"
-#include "patch/attempt.hpp"
 #include "patch/domain.hpp"
 #include "patch/old_places.hpp"
 #include "patch/part.hpp"
@@ -18,7 +17,9 @@ struct NewPart {
   std::vector<std::int32_t> old_triangle;  ///< the same
   std::size_t triangles_made = 0;          ///< in place of those that were taken, the first ones
 };
-[[nodiscard]] NewPart new_part(const Attempt& made, const Part& part, const Extent& extent, const OldPlaces& old);
+/// `made`: the domain in place of the triangles that were taken.
+[[nodiscard]] NewPart new_part(const Mesh& made, const Domain& domain, const Part& part, const Extent& extent,
+                               const OldPlaces& old);
 
 /// The numbers that everything has in the mesh that a new part is put into.
 struct Numbers {

@@ -11,7 +11,6 @@
 #include "mesh/bounds.hpp"
 #include "mesh/exceptions.hpp"
 #include "mesh/mesh_edges.hpp"
-#include "patch/part.hpp"
 
 namespace driftmesh::patch {
 namespace {
@@ -124,9 +123,8 @@ class Finding {
 
 }  // namespace
 
-Unmet find_unmet(const Mesh& mesh, std::span<const double> lengths, const AdaptiveOptions& options, double min_angle,
-                 double threshold) {
-  const Triangulation linked = triangulation_of(mesh, triangle_neighbors(mesh));
+Unmet find_unmet(const Mesh& mesh, const Triangulation& linked, std::span<const double> lengths,
+                 const AdaptiveOptions& options, double min_angle, double threshold) {
   return Finding(mesh, linked).run(wishes_of(linked, lengths, options), min_angle, threshold);
 }
 

@@ -6,6 +6,7 @@
 
 #include "driftmesh/adaptive.hpp"
 #include "driftmesh/mesh.hpp"
+#include "mesh/triangulation.hpp"
 
 namespace driftmesh::patch {
 
@@ -18,10 +19,10 @@ struct Unmet {
   std::int64_t not_delaunay = 0;  ///< together with a neighbor
 };
 
-/// `lengths`: wanted, one for each point, as options want them; empty: only the bounds of the options count. Triangles
-/// are too dense where all together have lengths that are shorter by more than the factor `threshold`. Throws Error for
-/// triangles that do not fit together.
-[[nodiscard]] Unmet find_unmet(const Mesh& mesh, std::span<const double> lengths, const AdaptiveOptions& options,
-                               double min_angle, double threshold);
+/// `linked`: the mesh. `lengths`: wanted, one for each point, as options want them; empty: only the bounds of the
+/// options count. Triangles are too dense where all together have lengths that are shorter by more than the factor
+/// `threshold`.
+[[nodiscard]] Unmet find_unmet(const Mesh& mesh, const Triangulation& linked, std::span<const double> lengths,
+                               const AdaptiveOptions& options, double min_angle, double threshold);
 
 }  // namespace driftmesh::patch

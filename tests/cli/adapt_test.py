@@ -362,6 +362,37 @@ class AtTriangles(Adapt):
         self.refuse("adapt", "old.vtu", "--lengths", "q", "-o", "new.vtu", says=["no point data 'q'", "'h' at points"])
 
 
+class Large(Adapt):
+    def test_all_of_it_is_made_in_subdomains_on_threads(self):
+        self.mesh("old.vtu", REGIONS, 0.3, s=lambda x, y: 1 + x + 2 * y, w=lambda x, y: x * y)
+        old = "old.vtu", "--max-length", 0.0097, "--transfer", "s=conserve"
+        for threads in 1, 3:
+            self.succeed("adapt", *old, "--threads", threads, "--map", f"map{threads}.csv", "-o", f"new{threads}.vtu")
+        for name in "new{}.vtu", "map{}.csv":
+            self.assertEqual(*((self.folder / name.format(threads)).read_bytes() for threads in (1, 3)))
+        report = self.succeed("check", "new1.vtu", "--angle", 20, "--against", "old.vtu", "--map", "map1.csv")
+        self.assertRegex(report, r"subdomains +\d\d,")
+        points, triangles, values = self.read("new1.vtu")
+        self.assertGreater(len(triangles), 500_000)
+        self.assertTrue(all(abs(s - (1 + x + 2 * y)) < 1e-12 for (x, y), (s, *_) in zip(points, values)))
+        self.assertAlmostEqual(integral(points, triangles, [s for s, *_ in values]), 16 * 7, delta=16 * 7e-12)
+
+    def test_regions_and_markers_are_those_of_the_mesh(self):
+        self.write("domain.poly", REGIONS)
+        self.succeed("mesh", "domain.poly", "--area", 0.05, "-o", "old.vtu")
+        self.succeed("adapt", "old.vtu", "--max-length", 0.0097, "-o", "new.vtu")
+        self.succeed("check", "new.vtu", "domain.poly", "--angle", 20)
+        # Made anew once more, the mesh has no subdomains that are gone.
+        self.succeed("adapt", "new.vtu", "--min-length", 0.1, "-o", "coarse.vtu")
+        report = self.succeed("check", "coarse.vtu", "domain.poly", "--angle", 20)
+        self.assertNotIn("subdomains", report)
+
+    def test_the_most_triangles(self):
+        self.mesh("old.vtu", SQUARE, 0.3)
+        self.refuse("adapt", "old.vtu", "--max-length", 0.008, "--max-triangles", 600_000, "-o", "new.vtu", code=3,
+                    says=["more than 600000 triangles"])
+
+
 class Errors(Adapt):
     def test_each_is_one_clear_line(self):
         self.mesh("old.vtu", h=lambda x, y: 1.0, bad=lambda x, y: -1.0 if x > 3 else 1.0,

@@ -31,10 +31,10 @@ std::vector<std::int32_t> tight_points(double height, double most_area) {
   domain.sides = {{0, kNone}, {0, kNone}, {0, kNone}, {kNone, 0}};
   domain.fixed = {true, false, false, false};
   domain.free.assign(5, false);
-  domain.regions = {0};
   QualityBounds bounds{.min_angle = 0};
   bounds.plain.area = most_area;
-  return patch::attempt(domain, part, extent, patch::OldPlaces(part.mesh), bounds, 10'000).tight;
+  const std::vector<const SizeField*> none{nullptr};
+  return patch::attempt(domain, part, extent, patch::OldPlaces(part.mesh), bounds, none, 10'000).tight;
 }
 
 }  // namespace
