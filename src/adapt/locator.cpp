@@ -18,6 +18,12 @@ double along(const Point& a, const Point& b, const Point& p) {
   return ((p.x - a.x) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy);
 }
 
+/// How far beyond an edge of this length rounding may put a point.
+double rounding_at(const Point& p, double length) {
+  constexpr double kRounding = 1e-15, kNear = 1e-9;
+  return std::max(kNear * length, kRounding * std::max(std::fabs(p.x), std::fabs(p.y)));
+}
+
 }  // namespace
 
 /// Where a walk ended.
@@ -37,17 +43,16 @@ Locator::Locator(const Triangulation& mesh) : mesh_(mesh) {
 /// Across the edge that separates the triangle most from the point, until there is none, or nothing beyond it.
 Locator::Stop Locator::walk(TriangleId start, const Point& p, int most_steps) const {
   Stop stop{start};
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0;; ++step) {
     const Triangle& t = mesh_.triangles[stop.triangle];
     for (int i = 0; i < 3; ++i)
       stop.side[i] = orient2d(mesh_.points[t.vertex[next(i)]], mesh_.points[t.vertex[previous(i)]], p);
     stop.least = static_cast<int>(std::ranges::min_element(stop.side) - stop.side.begin());
-    if (stop.inside()) break;
+    if (stop.inside() || step == most_steps) return stop;
     const HalfEdge beyond = mesh_.across(half_edge(stop.triangle, stop.least));
-    if (beyond == kNone) break;
+    if (beyond == kNone) return stop;
     stop.triangle = triangle_of(beyond);
   }
-  return stop;
 }
 
 /// More than walks take.
@@ -62,9 +67,7 @@ bool Locator::is_settled(const Stop& stop, const Point& p) const {
   if (mesh_.across(edge) != kNone) return false;
   const Point &a = mesh_.points[mesh_.edge_start(edge)], &b = mesh_.points[mesh_.edge_end(edge)];
   const double length = std::sqrt(squared_distance(a, b)), t = along(a, b, p);
-  constexpr double kRounding = 1e-15, kNear = 1e-9;
-  const double near = std::max(kNear * length, kRounding * std::max(std::fabs(p.x), std::fabs(p.y)));
-  return t >= 0 && t <= 1 && -stop.side[stop.least] <= near * length;
+  return t >= 0 && t <= 1 && -stop.side[stop.least] <= rounding_at(p, length) * length;
 }
 
 void Locator::make_starts() const {
@@ -128,7 +131,9 @@ Locator::Stop Locator::beyond_edge(HalfEdge edge, const Point& p) const {
     stop.side[i] = orient2d(mesh_.corner(stop.triangle, next(i)), mesh_.corner(stop.triangle, previous(i)), p);
   stop.least = index_of(edge);
   stop.side[stop.least] = std::min(stop.side[stop.least], -0.0);
-  stop.beyond = true;
+  const Point &a = mesh_.points[mesh_.edge_start(edge)], &b = mesh_.points[mesh_.edge_end(edge)];
+  const double rounding = rounding_at(p, std::sqrt(squared_distance(a, b)));
+  stop.beyond = squared_distance_to_segment(p, a, b) > rounding * rounding;
   return stop;
 }
 

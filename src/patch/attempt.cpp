@@ -15,7 +15,6 @@
 #include "mesh/refiner.hpp"
 #include "mesh/to_piece.hpp"
 #include "patch/in_subdomains.hpp"
-#include "runtime/plan_run.hpp"
 
 namespace driftmesh::patch {
 namespace {
@@ -139,14 +138,14 @@ class Judge {
 }  // namespace
 
 Attempt attempt(const Domain& domain, const Part& part, const Extent& extent, const OldPlaces& old,
-                QualityBounds bounds, std::span<const SizeField* const> sizes, std::int64_t most_triangles) {
-  bounds.size = sizes.front();
+                QualityBounds bounds, const Making& making) {
+  bounds.size = making.sizes.front();
   Triangulation mesh = triangulate(domain.pslg, domain.sides);
   const IdVector<RootId, bool> fixed = fixed_roots(mesh, domain);
   if (is_whole(domain))
-    if (const double forecast = forecast_triangles(mesh, bounds); is_worth_cutting(mesh, forecast)) {
+    if (const double forecast = forecast_triangles(mesh, bounds); is_worth_cutting(mesh, forecast, making.cut_from)) {
       static_cast<void>(prepare_corners(mesh));
-      return {refine_in_subdomains(mesh, domain.pslg, bounds, sizes, forecast, most_triangles), {}};
+      return {refine_in_subdomains(mesh, domain.pslg, bounds, making.sizes, forecast, making.most_triangles), {}};
     }
   for (VertexOrigin& origin : mesh.origin)
     if (is_input(origin) && domain.free[to_index(origin)]) origin = kFree;
@@ -155,8 +154,8 @@ Attempt attempt(const Domain& domain, const Part& part, const Extent& extent, co
   for (const RootId r : ids_of(fixed))
     if (fixed[r]) state.unsplittable.insert(mesh.roots[r].tree);
   Refiner refiner(mesh, bounds, std::move(state));
-  refiner.limit_triangles(most_triangles);
-  if (refiner.refine() != Refiner::Status::kDone) refuse_many(most_triangles);
+  refiner.limit_triangles(making.most_triangles);
+  if (refiner.refine() != Refiner::Status::kDone) refuse_many(making.most_triangles);
   Attempt made;
   made.tight = Judge(mesh, part, extent, old).tight(bounds, domain);
   made.mesh = to_piece(mesh, domain.pslg);

@@ -235,9 +235,11 @@ Remade remake(Mesh mesh, std::vector<adapt::Field> fields, Order order) {
     if (order.domain != nullptr) apply(change, part, old, extent);
     const adapt::Lengths lengths = lengths_in(part, before, extent, order.lengths, order.options);
     const Domain domain = domain_of(part, extent, old);
-    const Attempt made =
-        attempt(domain, part, extent, old, {.min_angle = order.min_angle}, Sizes(before, lengths, order.threads).all(),
-                most > 0 ? static_cast<std::int64_t>(most) : kMostRefined);
+    const Sizes sizes(before, lengths, order.threads);
+    const Attempt made = attempt(domain, part, extent, old, {.min_angle = order.min_angle},
+                                 {.sizes = sizes.all(),
+                                  .most_triangles = most > 0 ? static_cast<std::int64_t>(most) : kMostRefined,
+                                  .cut_from = order.cut_from});
     if (!made.tight.empty() && round < kMostRounds &&
         taken.grow_around(numbers_in_whole(part, made.tight), kLayers + round))
       continue;

@@ -10,6 +10,7 @@
 #include "driftmesh/mesh.hpp"
 #include "patch/new_outline.hpp"
 #include "patch/part.hpp"
+#include "runtime/plan_run.hpp"
 
 namespace driftmesh::patch {
 
@@ -20,6 +21,7 @@ struct Order {
   AdaptiveOptions options{};      ///< for lengths; most_triangles: what is made anew has no more; 0: no limit
   double min_angle = defaults::kMinAngle;
   std::int32_t threads = 1;           ///< of this process; nothing depends on their number but time
+  double cut_from = kWorthCutting;    ///< triangles for which all of a mesh is made anew in subdomains
   std::optional<Linked> linked{};     ///< the mesh, if that is there already
   const NewDomain* domain = nullptr;  ///< null: that of the mesh; else what differs is made anew, too
 };

@@ -30,9 +30,8 @@ std::int32_t default_subdomains(double triangles, std::int32_t ranks) {
   return std::max(kSubdomainsPerRank * ranks, static_cast<std::int32_t>(for_cache));
 }
 
-bool is_worth_cutting(const Triangulation& mesh, double forecast) {
-  constexpr double kMany = 500'000;  // triangles to be made: a tenth of a second of work
-  return forecast - static_cast<double>(mesh.live_triangles()) >= kMany;
+bool is_worth_cutting(const Triangulation& mesh, double forecast, double least) {
+  return forecast - static_cast<double>(mesh.live_triangles()) >= least;
 }
 
 Decomposition decompose_for(const Triangulation& mesh, DecomposeOptions options, std::int32_t ranks) {

@@ -25,8 +25,11 @@ struct PlanOptions {
 /// would otherwise exceed a second-level cache.
 [[nodiscard]] std::int32_t default_subdomains(double triangles, std::int32_t ranks);
 
-/// Whether a mesh of so many triangles takes long enough to be made in subdomains on threads where nobody asks for it.
-[[nodiscard]] bool is_worth_cutting(const Triangulation& mesh, double forecast);
+/// Triangles to be made that are worth being made in subdomains where nobody asks for it: a tenth of a second of work.
+inline constexpr double kWorthCutting = 500'000;
+
+/// Whether a mesh is to have at least so many more triangles.
+[[nodiscard]] bool is_worth_cutting(const Triangulation& mesh, double forecast, double least = kWorthCutting);
 
 /// Cuts the domain (triangulated, corners prepared) as `options` say; with options.subdomains = 0 into
 /// default_subdomains, or as many as the domain allows. Throws like decompose.

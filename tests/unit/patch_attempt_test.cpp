@@ -34,7 +34,9 @@ std::vector<std::int32_t> tight_points(double height, double most_area) {
   QualityBounds bounds{.min_angle = 0};
   bounds.plain.area = most_area;
   const std::vector<const SizeField*> none{nullptr};
-  return patch::attempt(domain, part, extent, patch::OldPlaces(part.mesh), bounds, none, 10'000).tight;
+  return patch::attempt(domain, part, extent, patch::OldPlaces(part.mesh), bounds,
+                        {.sizes = none, .most_triangles = 10'000})
+      .tight;
 }
 
 }  // namespace
