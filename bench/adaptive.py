@@ -2,14 +2,20 @@
 """What it costs that a mesh follows a front: a ring in the unit square, a band of short edges that widens from one generation to the next,
 with a field at points that is carried along. Each generation is checked and compared with a mesh made anew by the same lengths;
 prints a table in Markdown (docs/results/adaptive.md). Processor time on one thread. Needs the Python package on PYTHONPATH. With --ranks,
-instead: how even the load of a solver is after each generation on ranks, and what moves for that.
+instead: how even the load of a solver is after each generation on ranks, and what moves for that. With --peer:
+generations of which all is made anew, beside FreeFEM's adaptmesh. With --save: how fast a session is written, beside
+dd. With --memory: how much a generation takes at its worst moment.
 
-usage: adaptive.py [--generations N] [--every N] [--length L]... [--freefem | --ranks N... | --simulator PROGRAM] [--program DRIFTMESH] [--update]
+usage: adaptive.py [--generations N] [--every N] [--length L]... [--program DRIFTMESH] [--update]
+                   [--peer | --save | --memory | --ranks N... | --simulator PROGRAM]
 """
 
 import argparse
+import ctypes
 import json
+import os
 import pathlib
+import re
 import shutil
 import statistics
 import subprocess
@@ -96,57 +102,103 @@ def measured(options):
     return table
 
 
+def settled(shortest, generation=0, threads=1, transfer="conserve"):
+    """A session whose mesh is as the lengths of a ring ask for, with a field."""
+    mesh = driftmesh.AdaptiveMesh(square(), max_area=1e-3, threads=threads, gradation=GROWTH)
+    for _ in range(12):
+        mesh.adapt(ring(mesh.mesh.points, shortest, generation))
+    mesh.attach("u", mesh.mesh.points[:, 0], transfer=transfer)
+    return mesh
+
+
+JUMP = round(WIDTH / STEP)  # generations until the ring is where it was not
+SHORTER = 0.7
+# What changes all at once: factor on all lengths, and generation of the ring.
+CHANGES = {f"all lengths times {SHORTER:g}": (SHORTER, 0), "the ring jumps": (1, JUMP)}
+
 PEER = """
-func real h(real radius) {{ return {shortest} + {growth} * max(0., abs(sqrt((x - 0.5)^2 + (y - 0.5)^2) - radius) - {width} / 2); }}
+func real h(real radius) {{
+  return {shortest} + {growth} * max(0., abs(sqrt((x - 0.5)^2 + (y - 0.5)^2) - radius) - {width} / 2);
+}}
 mesh T = square(10, 10);
-for (int k = 0; k < 12; ++k) T = adaptmesh(T, h({first}), IsMetric = 1, nbvx = 10000000, hmax = 1, verbosity = 0);
+for (int k = 0; k < 6; ++k)
+  T = adaptmesh(T, h({first}), IsMetric = 1, nbvx = {room}, hmax = 1, verbosity = 0);
 fespace V(T, P1);
 V u = x;
-real start = clock();
-mesh N = adaptmesh(T, h({second}), IsMetric = 1, nbvx = 10000000, hmax = 1, verbosity = 0);
-fespace W(N, P1);
-W v = u;
-cout << "made " << N.nt << " " << clock() - start << endl;
+for (int k = 0; k < {repetitions}; ++k) {{
+  real begin = clock();
+  mesh N = adaptmesh(T, {factor} * h({second}), IsMetric = 1, nbvx = {room}, hmax = 1, verbosity = 0);
+  real made = clock();
+  fespace W(N, P1);
+  W v = u;
+  real there = clock();
+  cout << "made " << N.nt << " " << made - begin << " " << there - made << endl;
+}}
 """
-PEERS_RADII = (RADIUS, RADIUS + WIDTH)
 
 
-def by_freefem(program, shortest):
-    """Triangles and seconds of adaptmesh with an isotropic metric, interpolation of one field included."""
+def by_freefem(program, shortest, factor, generation, room, repetitions):
+    """Triangles, seconds of adaptmesh with an isotropic metric, and seconds of interpolating one field. `room`: for
+    points, which it takes at once; much more than it needs would cost it time."""
     with tempfile.TemporaryDirectory() as folder:
         script = pathlib.Path(folder, "ring.edp")
-        script.write_text(PEER.format(shortest=shortest, growth=GROWTH, width=WIDTH, first=PEERS_RADII[0], second=PEERS_RADII[1]))
-        said = subprocess.run([program, "-nw", "-v", "0", script], check=True, capture_output=True, text=True).stdout
-    triangles, seconds = said[said.index("made "):].split()[1:3]
-    return int(triangles), float(seconds)
+        script.write_text(PEER.format(shortest=shortest, growth=GROWTH, width=WIDTH, factor=factor, room=room,
+                                      first=RADIUS, second=RADIUS + STEP * generation, repetitions=repetitions))
+        said = subprocess.run([program, "-nw", "-v", "0", script], check=True, stdout=subprocess.PIPE, text=True).stdout
+    runs = [tuple(map(float, words)) for words in re.findall(r"made (\d+) (\S+) (\S+)", said)]
+    triangles, made, interpolated = (statistics.median(column) for column in zip(*runs))
+    return int(triangles), made, interpolated
 
 
-def by_driftmesh(shortest):
-    """The same, with a conserving transfer."""
-    first, second = (round((radius - RADIUS) / STEP) for radius in PEERS_RADII)
-    mesh = driftmesh.AdaptiveMesh(square(), max_area=1e-3, threads=1, gradation=GROWTH)
-    for _ in range(12):
-        mesh.adapt(ring(mesh.mesh.points, shortest, first))
-    mesh.attach("u", mesh.mesh.points[:, 0], transfer="conserve")
-    lengths = ring(mesh.mesh.points, shortest, second)
-    seconds = timed(lambda: mesh.adapt(lengths))[1]
-    return len(mesh.mesh.triangles), np.count_nonzero(mesh.stayed_triangles < 0), seconds
+def by_driftmesh(shortest, factor, generation, repetitions):
+    """Triangles, those that are new, seconds, and those of them that the conserving transfer of one field took."""
+    runs = []
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder, "settled.h5")
+        mesh = settled(shortest)
+        mesh.save(path)
+        lengths = factor * ring(mesh.mesh.points, shortest, generation)
+        for _ in range(repetitions):
+            mesh = driftmesh.AdaptiveMesh.load(path, threads=1)
+            seconds = timed(lambda: mesh.adapt(lengths))[1]
+            runs.append((seconds, seconds * mesh.report["transfer"] / mesh.report["seconds"]))
+    seconds, transfer = (statistics.median(column) for column in zip(*runs))
+    return len(mesh.mesh.triangles), np.count_nonzero(mesh.stayed_triangles < 0), seconds, transfer
 
 
 def beside_freefem(options):
     program = shutil.which("FreeFem++-nw")
     if program is None:
         raise SystemExit("FreeFem++-nw is not there; install freefem++")
-    table = Table("adaptive-freefem", "A ring that jumps, beside FreeFEM's adaptmesh",
-                  ["shortest", "triangles", "share that is new", "us for each", "FreeFEM: triangles", "us for each", "ratio"],
-                  f"From radius {PEERS_RADII[0]:g} to {PEERS_RADII[1]:g}, by the same lengths at points. Processor time on one thread with transfer of one field: ours "
-                  f"conserves it, FreeFEM's interpolates; medians of {options.repetitions}.")
-    for shortest in options.length or [0.002, 0.001]:
-        runs = [(*by_driftmesh(shortest), *by_freefem(program, shortest)) for _ in range(options.repetitions)]
-        ours, new, _, peers, _ = runs[0]
-        each, peer = statistics.median(run[2] for run in runs) / ours * 1e6, statistics.median(run[4] for run in runs) / peers * 1e6
-        table.add(shortest, ours, f"{new / ours:.2f}", f"{each:.2f}", peers, f"{peer:.1f}", f"{peer / each:.0f}")
+    table = Table("adaptive-peer", "All made anew, beside FreeFEM's adaptmesh",
+                  ["shortest", "change", "triangles", "share that is new", "us for each", "of these, transfer",
+                   "FreeFEM: triangles", "us for each", "and interpolation", "ratio"],
+                  "Both by the same lengths at the points of a mesh that is as the ring before asks for. Processor "
+                  "time on one thread, in microseconds for each triangle of the new mesh. Ours includes the transfer "
+                  "of one field, whose integral is conserved; what FreeFEM's interpolation of one takes is beside it, "
+                  f"and not in the ratio. The ring jumps by its width. Medians of {options.repetitions}.")
+    for shortest in options.length or [0.0011]:
+        for change, (factor, generation) in CHANGES.items():
+            ours, new, *seconds = by_driftmesh(shortest, factor, generation, options.repetitions)
+            each, transfer = (value / ours * 1e6 for value in seconds)
+            theirs, *seconds = by_freefem(program, shortest, factor, generation, ours,
+                                         options.repetitions)
+            peer, interpolated = (value / theirs * 1e6 for value in seconds)
+            table.add(shortest, change, ours, f"{new / ours:.3f}", f"{each:.2f}", f"{transfer:.2f}", theirs,
+                      f"{peer:.1f}", f"{interpolated:.1f}", f"{peer / each:.1f}")
     return table
+
+
+def said_by(worker, *words, ranks=0):
+    """What a worker returns in a process of its own, or its first rank on so many."""
+    on = ["mpirun", "--oversubscribe", "-n", str(ranks)] if ranks else []
+    return json.loads(subprocess.run([*on, sys.executable, __file__, "--worker", worker, *map(str, words)], check=True,
+                                     stdout=subprocess.PIPE, text=True).stdout)
+
+
+def world():
+    from mpi4py import MPI
+    return MPI.COMM_WORLD
 
 
 ASIDE = (0.2, 0.3)  # what widens around the middle would load all ranks alike
@@ -202,12 +254,11 @@ def follow_on_ranks(communicator, shortest, subdomains, generations):
     return rows
 
 
-def worker(options):
-    from mpi4py import MPI
-    rows = [follow_on_ranks(MPI.COMM_WORLD, shortest, subdomains, options.generations)
+def follow(options):
+    communicator = world()
+    rows = [follow_on_ranks(communicator, shortest, subdomains, options.generations)
             for shortest in options.length for subdomains in options.subdomains]
-    if MPI.COMM_WORLD.rank == 0:
-        print(json.dumps(rows))
+    return rows if communicator.rank == 0 else None
 
 
 def on_ranks(options):
@@ -219,15 +270,173 @@ def on_ranks(options):
                   "piece that is made anew.")
     lengths = options.length or [0.002, 0.001]
     for ranks in options.ranks:
-        said = subprocess.run(["mpirun", "--oversubscribe", "-n", str(ranks), sys.executable, __file__, "--worker", "--generations",
-                               str(options.generations), *(word for length in lengths for word in ("--length", str(length))),
-                               "--subdomains", *map(str, options.subdomains)],
-                              check=True, capture_output=True, text=True).stdout
-        for shortest, rows in zip([length for length in lengths for _ in options.subdomains], json.loads(said)):
+        words = [word for length in lengths for word in ("--length", length)]
+        said = said_by("follow", "--generations", options.generations, *words, "--subdomains", *options.subdomains,
+                       ranks=ranks)
+        for shortest, rows in zip([length for length in lengths for _ in options.subdomains], said):
             moved, above = (sum(row[key] for row in rows) for key in ("moved", "above"))
             table.add(ranks, shortest, rows[-1]["triangles"], f"{rows[-1]['denser']:.3f}", rows[-1]["subdomains"], sum(row["moved"] > 0 for row in rows),
                       f"{max(row['before'] for row in rows):.3f}", f"{max(row['after'] for row in rows):.3f}", moved, round(above),
                       f"{moved / above:.2f}" if above else "")
+    return table
+
+
+def await_all(communicator):
+    """Waits for the other ranks, and leaves the processor to them."""
+    there = communicator.Ibarrier()
+    while not there.Test():
+        time.sleep(0.001)
+
+
+def mixed(bits):
+    """The finalizer of splitmix64."""
+    bits = (bits ^ bits >> np.uint64(30)) * np.uint64(0xBF58476D1CE4E5B9)
+    bits = (bits ^ bits >> np.uint64(27)) * np.uint64(0x94D049BB133111EB)
+    return bits ^ bits >> np.uint64(31)
+
+
+def digest(communicator, mesh):
+    """Of all ranks: triangles, and a sum of what coordinates and values of the field at their corners mix to."""
+    columns = (*mesh.piece.mesh.points.T, mesh.field("u").ravel())
+    x, y, u = (np.ascontiguousarray(values + 0.0).view(np.uint64) for values in columns)
+    corners = mixed(mixed(mixed(x + np.uint64(0x9E3779B97F4A7C15)) + y) + u)
+    a, b, c = (corners[of_triangle] for of_triangle in mesh.piece.mesh.triangles.T)
+    edges = sum(mixed(p + np.uint64(2) * q) for p, q in ((a, b), (b, c), (c, a)))
+    all_sums = communicator.allgather((len(a), int(mixed(edges).sum())))
+    return [sum(count for count, _ in all_sums), sum(part for _, part in all_sums) % 2**64]
+
+
+def seconds_to_write(path, write):
+    """Until write() returns, and until what it wrote is on the disk."""
+    start = time.monotonic()
+    write()
+    returned = time.monotonic() - start
+    with open(path, "rb") as file:
+        os.fsync(file.fileno())
+    return returned, time.monotonic() - start
+
+
+def by_dd(path, size):
+    subprocess.run(["dd", "if=/dev/zero", f"of={path}", "bs=1M", f"count={size}", "iflag=count_bytes"], check=True,
+                   stderr=subprocess.DEVNULL)
+
+
+def save(options):
+    """Ranks save, and the first one of them calls dd, in turn. The last file stays."""
+    communicator = world()
+    mesh = driftmesh.DistributedAdaptiveMesh(communicator, square(), triangles=options.triangles, threads=1)
+    mesh.attach("u", mesh.piece.mesh.points[:, 0], transfer="conserve")
+    file, other = pathlib.Path(options.folder, "session.h5"), pathlib.Path(options.folder, "dd.bin")
+    rounds = []
+    for _ in range(options.repetitions):
+        if communicator.rank == 0:
+            file.unlink(missing_ok=True)
+            subprocess.run(["sync"], check=True)
+        await_all(communicator)
+        ours = seconds_to_write(file, lambda: mesh.save(file))
+        await_all(communicator)
+        if communicator.rank == 0:
+            size = file.stat().st_size
+            rounds.append((*ours, *seconds_to_write(other, lambda: by_dd(other, size))))
+            other.unlink()
+    told = digest(communicator, mesh)
+    return {"digest": told, "bytes": size, "rounds": rounds} if communicator.rank == 0 else None
+
+
+def load(options):
+    communicator = world()
+    mesh = driftmesh.DistributedAdaptiveMesh.load(communicator, pathlib.Path(options.folder, "session.h5"), threads=1)
+    told = digest(communicator, mesh)
+    return told if communicator.rank == 0 else None
+
+
+LOADING_RANKS = (1, 2, 3)
+
+
+def beside_dd(options):
+    table = Table("adaptive-save", "A session that is saved, beside dd",
+                  ["ranks", "triangles", "GB", "saved in", "dd", "speed over dd's", "saved, and on the disk",
+                   "dd, and on the disk", "speed over dd's", "the same on ranks that load it"],
+                  "Seconds by the clock, with one field. One process of dd writes as many bytes to the same folder "
+                  f"while the ranks hold the session; medians of {options.repetitions} in turn. Neither asks for the "
+                  "disk by itself; then `fsync` of the file, for both. The same: the mesh and the field, by a digest.")
+    for ranks in options.savers:
+        with tempfile.TemporaryDirectory(dir=options.folder) as folder:
+            said = said_by("save", "--triangles", options.triangles, "--folder", folder,
+                           "--repetitions", options.repetitions, ranks=ranks)
+            loads = [said_by("load", "--folder", folder, ranks=loading) for loading in LOADING_RANKS]
+        if any(told != said["digest"] for told in loads):
+            raise SystemExit(f"{ranks} ranks saved {said['digest']}, loaded: {loads}")
+        ours, ours_on_disk, dd, dd_on_disk = (statistics.median(column) for column in zip(*said["rounds"]))
+        table.add(ranks, said["digest"][0], f"{said['bytes'] / 1e9:.2f}",
+                  f"{ours:.2f} s", f"{dd:.2f} s", f"{dd / ours:.2f}",
+                  f"{ours_on_disk:.2f} s", f"{dd_on_disk:.2f} s", f"{dd_on_disk / ours_on_disk:.2f}",
+                  ", ".join(map(str, LOADING_RANKS)))
+    return table
+
+
+MOVES = {"the ring moves on": (1, 2), "the ring jumps": (1, JUMP), f"all lengths times {SHORTER:g}": (SHORTER, 1),
+         f"all lengths over {SHORTER:g}": (1 / SHORTER, 1)}  # as CHANGES, from generation 1
+
+
+def lengths_of_change(folder, change):
+    return pathlib.Path(folder, f"{change}.npy")
+
+
+def prepare(options):
+    """Saves a session, and lengths for its next generation and for each change then: who measures needs no points."""
+    shortest, = options.length
+    mesh = settled(shortest, threads=options.threads)
+    mesh.save(pathlib.Path(options.folder, "session.h5"))
+    np.save(lengths_of_change(options.folder, "first"), ring(mesh.mesh.points, shortest, 1))
+    mesh.adapt(ring(mesh.mesh.points, shortest, 1))
+    for change, (factor, generation) in MOVES.items():
+        np.save(lengths_of_change(options.folder, change), factor * ring(mesh.mesh.points, shortest, generation))
+    return len(mesh.mesh.triangles)
+
+
+def memory_of_process(key):
+    """VmRSS: what it has, without what is free; VmHWM: the most that it had."""
+    if key == "VmRSS":
+        ctypes.CDLL(None).malloc_trim(0)
+    return int(re.search(rf"{key}:\s*(\d+) kB", pathlib.Path("/proc/self/status").read_text())[1]) * 1024
+
+
+def change_once(options):
+    """Memory that a session takes before and after a change, and at most meanwhile, without that of Python."""
+    settled(0.05)  # so that all of the program is in memory
+    first, lengths = (np.load(lengths_of_change(options.folder, change)) for change in ("first", options.change))
+    alone = memory_of_process("VmRSS") - first.nbytes - lengths.nbytes
+    mesh = driftmesh.AdaptiveMesh.load(pathlib.Path(options.folder, "session.h5"), threads=options.threads)
+    mesh.adapt(first)
+    del first
+    before = memory_of_process("VmRSS")
+    pathlib.Path("/proc/self/clear_refs").write_text("5")  # VmHWM begins anew
+    mesh.adapt(lengths)
+    most = memory_of_process("VmHWM")
+    after = memory_of_process("VmRSS")
+    return {"before": before - alone, "after": after - alone, "most": most - alone,
+            "triangles": len(mesh.mesh.triangles),
+            "fates": [mesh.report[fate] for fate in ("kept", "mended", "remade")]}
+
+
+def at_worst(options):
+    table = Table("adaptive-memory", "Memory at the worst moment of a generation",
+                  ["change", "triangles before", "after", "subdomains kept, mended, remade", "held before", "after",
+                   "at most", "over before", "over the larger of both"],
+                  f"Resident memory of a process (threads: {options.threads}) that loads a session with one field, "
+                  "whose integral is conserved, and moves on twice, without what Python takes; the second time counts. "
+                  "Held: after `malloc_trim`, with the lengths that it is given; at most: VmHWM. The old mesh is not "
+                  "kept.")
+    with tempfile.TemporaryDirectory(dir=options.folder) as folder:
+        words = ["--folder", folder, "--threads", options.threads]
+        triangles = said_by("prepare", *words, "--length", (options.length or [0.00033])[0])
+        for change in MOVES:
+            said = said_by("change", *words, "--change", change)
+            held = max(said["before"], said["after"])
+            table.add(change, triangles, said["triangles"], ", ".join(map(str, said["fates"])),
+                      *(f"{said[key] / 1e6:.0f} MB" for key in ("before", "after", "most")),
+                      f"{said['most'] / said['before']:.2f}", f"{said['most'] / held:.2f}")
     return table
 
 
@@ -246,17 +455,37 @@ def simulated(options):
     return table
 
 
+WORKERS = {"follow": follow, "save": save, "load": load, "prepare": prepare, "change": change_once}
+
+
+def work(options):
+    said = WORKERS[options.worker](options)
+    if said is not None:
+        print(json.dumps(said))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\nusage")[0])
     parser.add_argument("--generations", type=int, default=20)
     parser.add_argument("--every", type=int, default=10, help="check and compare only every N-th generation")
-    parser.add_argument("--length", type=float, action="append", help="shortest length in the ring; 0.0005 makes about 2 million triangles")
-    parser.add_argument("--repetitions", type=int, default=3, help="beside FreeFEM")
-    parser.add_argument("--freefem", action="store_true", help="compare with FreeFEM's adaptmesh instead")
-    parser.add_argument("--ranks", type=int, nargs="+", metavar="N", help="on so many ranks instead")
-    parser.add_argument("--subdomains", type=int, nargs="+", default=[0, 120, 400], metavar="N", help="of ranks; 0: by default")
-    parser.add_argument("--simulator", metavar="PROGRAM", help="driftmesh_bench_adaptive_ranks: on simulated ranks instead")
-    parser.add_argument("--worker", action="store_true", help=argparse.SUPPRESS)  # one of these ranks
+    parser.add_argument("--length", type=float, action="append",
+                        help="shortest in the ring; 0.0005 makes about a million triangles")
+    parser.add_argument("--repetitions", type=int, default=3, help="beside FreeFEM and dd")
+    suites = parser.add_mutually_exclusive_group()
+    suites.add_argument("--peer", action="store_true", help="compare with FreeFEM's adaptmesh instead")
+    suites.add_argument("--save", action="store_true", help="compare saving with dd instead")
+    suites.add_argument("--memory", action="store_true", help="measure memory instead")
+    suites.add_argument("--ranks", type=int, nargs="+", metavar="N", help="on so many ranks instead")
+    suites.add_argument("--simulator", metavar="PROGRAM",
+                        help="driftmesh_bench_adaptive_ranks: on simulated ranks instead")
+    suites.add_argument("--worker", choices=WORKERS, help=argparse.SUPPRESS)  # a process of one of these
+    parser.add_argument("--subdomains", type=int, nargs="+", default=[0, 120, 400], metavar="N",
+                        help="of ranks; 0: by default")
+    parser.add_argument("--savers", type=int, nargs="+", default=[1, 2], metavar="N", help="ranks that save")
+    parser.add_argument("--triangles", type=float, default=20e6, help="that are saved")
+    parser.add_argument("--folder", help="for files, on the disk in question; default: that of temporary files")
+    parser.add_argument("--threads", type=int, default=1, help="whose memory is measured")
+    parser.add_argument("--change", help=argparse.SUPPRESS)
     parser.add_argument("--program", default=PROJECT / "build/release/driftmesh", help="says which compiler it was")
     results.add_option(parser)
     options = parser.parse_args()
@@ -265,8 +494,9 @@ def main():
         import driftmesh
         import numpy as np
     if options.worker:
-        return worker(options)
-    suite = beside_freefem if options.freefem else on_ranks if options.ranks else simulated if options.simulator else measured
+        return work(options)
+    suite = (beside_freefem if options.peer else beside_dd if options.save else at_worst if options.memory
+             else on_ranks if options.ranks else simulated if options.simulator else measured)
     results.show("bench/adaptive.py", map(suite, [options]), options)
 
 
