@@ -63,7 +63,17 @@ std::span<const std::byte> SealedBytes::payload() const {
   return std::span<const std::byte>(bytes_).subspan(sizeof(PackedHeader));
 }
 
+SealedBytes SealedBytes::counted() {
+  SealedBytes none(0);
+  none.counted_ = sizeof(PackedHeader);
+  return none;
+}
+
 void SealedBytes::append(const void* data, std::size_t size) {
+  if (counted_ > 0) {
+    counted_ += size;
+    return;
+  }
   const auto* next = static_cast<const std::byte*>(data);
   for (std::size_t left = size; left > 0;) {
     const std::size_t some = std::min(left, kInCache);

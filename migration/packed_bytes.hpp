@@ -44,12 +44,17 @@ class SealedBytes {
  public:
   /// `capacity`: bytes to reserve.
   explicit SealedBytes(std::size_t capacity);
+  /// Only counts what is appended.
+  [[nodiscard]] static SealedBytes counted();
   void append(const void* data, std::size_t size);
+  /// With the header.
+  [[nodiscard]] std::uint64_t size() const { return counted_ > 0 ? counted_ : bytes_.size(); }
   /// The bytes with their header.
   [[nodiscard]] Bytes take();
 
  private:
   [[nodiscard]] std::span<const std::byte> payload() const;
+  std::uint64_t counted_ = 0;  // 0: they are not only counted
   Bytes bytes_;
   Checksum checksum_;
 };

@@ -264,13 +264,7 @@ std::size_t mesh_bytes(const Triangulation& mesh) {
          mesh.region.size() * sizeof(std::uint16_t) + mesh.subsegments.size() * sizeof(Subsegment);
 }
 
-}  // namespace
-
-Bytes pack(const SubdomainView& subdomain) {
-  constexpr std::size_t kSmallArrays = 4096;
-  SealedBytes bytes(kSmallArrays + (subdomain.body                 ? mesh_bytes(subdomain.body->part.mesh)
-                                    : subdomain.dormant != nullptr ? subdomain.dormant->mesh.bytes()
-                                                                   : 0));
+void write(const SubdomainView& subdomain, SealedBytes& bytes) {
   ArchiveWriter out(bytes);
   out.value(subdomain.id);
   out.value(static_cast<std::uint8_t>(subdomain.refined));
@@ -282,7 +276,24 @@ Bytes pack(const SubdomainView& subdomain) {
     save_refiner(out, subdomain.body->refiner, subdomain.body->part.mesh.points.size());
   }
   if (subdomain.dormant != nullptr) transfer_dormant(out, *subdomain.dormant);
+}
+
+}  // namespace
+
+Bytes pack(const SubdomainView& subdomain, std::size_t room_behind) {
+  constexpr std::size_t kSmallArrays = 4096;
+  SealedBytes bytes(kSmallArrays + room_behind +
+                    (subdomain.body                 ? mesh_bytes(subdomain.body->part.mesh)
+                     : subdomain.dormant != nullptr ? subdomain.dormant->mesh.bytes()
+                                                    : 0));
+  write(subdomain, bytes);
   return bytes.take();
+}
+
+std::uint64_t packed_size(const SubdomainView& subdomain) {
+  SealedBytes bytes = SealedBytes::counted();
+  write(subdomain, bytes);
+  return bytes.size();
 }
 
 SubdomainState unpack(std::span<const std::byte> bytes, Source source) {

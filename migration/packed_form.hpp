@@ -51,8 +51,11 @@ struct SubdomainView {
 };
 
 /// The packed form: the bytes that migrate (layout in docs/file-formats.md). For ranks running the same version of the
-/// program on machines of the same kind. The same state gives the same bytes.
-[[nodiscard]] Bytes pack(const SubdomainView& subdomain);
+/// program on machines of the same kind. The same state gives the same bytes. `room_behind`: for bytes that
+/// will follow.
+[[nodiscard]] Bytes pack(const SubdomainView& subdomain, std::size_t room_behind = 0);
+/// The number of these bytes, without the time and memory that they take.
+[[nodiscard]] std::uint64_t packed_size(const SubdomainView& subdomain);
 
 /// The origin of packed bytes.
 enum class Source {

@@ -31,6 +31,19 @@ RefinerState state_of(const Part& part) {
   return state;
 }
 
+const std::vector<SplitPoint<GlobalRootId>> kNothingPending;
+
+SubdomainView view_of(SubdomainId s, const Part& part, const RefinerState& state) {
+  return {s, true, kNothingPending, SubdomainView::Body{*part.mesh, state, part.asked}};
+}
+
+/// The length of the packed subdomain, the density, and the number of fields.
+constexpr std::size_t kBytesBeside = 2 * sizeof(std::uint64_t) + sizeof(double);
+
+std::size_t bytes_of_values(std::size_t count) {
+  return sizeof(std::uint64_t) + count * sizeof(double);
+}
+
 }  // namespace
 
 ValuesOnPart values_on(const Generation& generation, SubdomainId s, const Fields& fields) {
@@ -77,9 +90,14 @@ Fields without_values(const Fields& fields, const DistributedPiece& piece) {
 
 Bytes pack(SubdomainId s, const Part& part, const ValuesOnPart& values) {
   const RefinerState state = state_of(part);
-  const std::vector<SplitPoint<GlobalRootId>> none;
-  ByteWriter writer;
-  writer.array(driftmesh::pack(SubdomainView{s, true, none, SubdomainView::Body{*part.mesh, state, part.asked}}));
+  std::size_t room = kBytesBeside;
+  for (const std::vector<double>& of_field : values) room += bytes_of_values(of_field.size());
+  room += state.size.size() * sizeof(double);
+  Bytes bytes = driftmesh::pack(view_of(s, part, state), room);
+  ByteWriter length;
+  length.number(std::uint64_t{bytes.size()});
+  bytes.insert(bytes.begin(), length.bytes().begin(), length.bytes().end());
+  ByteWriter writer(std::move(bytes));
   writer.value(part.density);
   writer.value(std::uint64_t{values.size()});
   for (const std::vector<double>& of_field : values) writer.array(of_field);
@@ -88,6 +106,17 @@ Bytes pack(SubdomainId s, const Part& part, const ValuesOnPart& values) {
 
 Bytes pack(const Generation& generation, SubdomainId s, const Fields& fields) {
   return pack(s, generation.parts[s], values_on(generation, s, fields));
+}
+
+std::uint64_t packed_size(const Generation& generation, SubdomainId s, const Fields& fields) {
+  const Part& part = generation.parts[s];
+  std::uint64_t size = kBytesBeside + driftmesh::packed_size(view_of(s, part, state_of(part)));
+  for (const auto& named : fields) {
+    std::size_t values = 0;
+    visit_stretches(generation, s, named.second, [&](std::size_t, std::size_t count) { values += count; });
+    size += bytes_of_values(values);
+  }
+  return size;
 }
 
 Parcel unpack_parcel(std::span<const std::byte> bytes, Source source) {

@@ -32,6 +32,8 @@ struct Parcel {
 /// that would have gone on from the part.
 [[nodiscard]] Bytes pack(SubdomainId s, const Part& part, const ValuesOnPart& values);
 [[nodiscard]] Bytes pack(const Generation& generation, SubdomainId s, const Fields& fields);
+/// The number of these bytes, without the time and memory that they take.
+[[nodiscard]] std::uint64_t packed_size(const Generation& generation, SubdomainId s, const Fields& fields);
 /// Throws Error for bytes that are no such parcel.
 [[nodiscard]] Parcel unpack_parcel(std::span<const std::byte> bytes, Source source);
 

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "distributed/packed_parts.hpp"
 #include "distributed/parts_file.hpp"
 #include "driftmesh/error.hpp"
 #include "runtime/plan_bytes.hpp"
@@ -83,18 +82,14 @@ Saved read_own(const std::string& path, const Ranks& ranks) {
 
 }  // namespace
 
-void save(const std::string& path, const SavedHead& head, const std::vector<SubdomainId>& here,
-          const std::function<Bytes(SubdomainId)>& pack, std::uint64_t room, Ranks& ranks) {
+void save(const std::string& path, const SavedHead& head, const Packing& packing, Ranks& ranks) {
   std::map<std::string, Bytes> heads;
   std::map<SubdomainId, std::uint64_t> sizes;
-  PackedParts parts(pack, room);
   ranks.agree([&] {
     if (ranks.rank() == Rank{0}) heads[kAdaptiveMeshFile.head] = bytes_of(head);
-    for (const SubdomainId s : here) sizes[s] = parts.size(s);
+    for (const SubdomainId s : packing.here) sizes[s] = packing.size(s);
   });
-  write_parts(
-      path, kAdaptiveMeshFile, heads, head.plan.decomposition.size(), sizes,
-      [&](SubdomainId s) { return parts.take(s); }, ranks);
+  write_parts(path, kAdaptiveMeshFile, heads, head.plan.decomposition.size(), sizes, packing.pack, ranks);
 }
 
 Saved read_saved(const std::string& path, Ranks& ranks) {

@@ -27,12 +27,17 @@ struct SavedHead {
   Bytes more;     ///< what only the caller knows
 };
 
-/// Writes a session into one HDF5 file, each rank the parts that are `here`: pack(s) is the parcel of one of them, and
-/// is called twice for those that do not fit into `room` bytes together (see PackedParts). The file appears when all of
-/// it is written, or else one that was there stays. Errors, on all ranks: FileError, InputError for a path that cannot
-/// hold a regular file. Collective.
-void save(const std::string& path, const SavedHead& head, const std::vector<SubdomainId>& here,
-          const std::function<Bytes(SubdomainId)>& pack, std::uint64_t room, Ranks& ranks);
+/// Parcels to be saved.
+struct Packing {
+  std::vector<SubdomainId> here;  ///< on this rank, ascending
+  std::function<std::uint64_t(SubdomainId)> size;
+  std::function<Bytes(SubdomainId)> pack;  ///< as many bytes; called once for each, after all sizes
+};
+
+/// Writes a session into one HDF5 file, each rank its parcels. The file appears when all of it is written, or else one
+/// that was there stays. Errors, on all ranks: FileError, InputError for a path that cannot hold a regular file.
+/// Collective.
+void save(const std::string& path, const SavedHead& head, const Packing& packing, Ranks& ranks);
 
 /// A session as a file has it.
 struct Saved {

@@ -16,7 +16,6 @@
 #include "base/formatted.hpp"
 #include "base/in_turns.hpp"
 #include "base/stopwatch.hpp"
-#include "distributed/packed_parts.hpp"
 #include "driftmesh/error.hpp"
 
 namespace driftmesh::adapt {
@@ -131,9 +130,11 @@ void Session::save(const std::string& path, Bytes more, const Means& means) {
                  .generation = report_.generation,
                  .fields = fields_without_values(fields_),
                  .more = std::move(more)};
-  adapt::save(
-      path, head, present_.here, [&](SubdomainId s) { return pack(present_, s, fields_); }, PackedParts::kMostRoom,
-      means.ranks);
+  adapt::save(path, head,
+              {.here = present_.here,
+               .size = [&](SubdomainId s) { return packed_size(present_, s, fields_); },
+               .pack = [&](SubdomainId s) { return pack(present_, s, fields_); }},
+              means.ranks);
 }
 
 Generation Session::assembled(const Decomposition& decomposition, Parts parts, Ranks& ranks) const {

@@ -33,6 +33,9 @@ using UnsignedOfSize = std::conditional_t<
 /// formats of its own.
 class ByteWriter {
  public:
+  /// Behind these bytes, if there are some.
+  explicit ByteWriter(Bytes bytes = {}) : bytes_(std::move(bytes)) {}
+
   /// The bytes of a T, lowest first; a floating-point number as its IEEE 754 bits.
   template <Number T>
   void number(T value) {

@@ -276,7 +276,12 @@ void ThreadRun::save(const Request& request, Watch& watch) {
     return bytes;
   };
   timed(watch, "save", [&] {
-    adapt::save(path, head, here, packed, std::min(PackedParts::kMostRoom, room_under_cap() / 4), ranks());
+    PackedParts parts(packed, std::min(PackedParts::kMostRoom, room_under_cap() / 4));
+    adapt::save(path, head,
+                {.here = std::move(here),
+                 .size = [&](SubdomainId s) { return parts.size(s); },
+                 .pack = [&](SubdomainId s) { return parts.take(s); }},
+                ranks());
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -121,6 +122,22 @@ TEST_CASE("a part that has just been made has as many triangles for each asked o
   }
 }
 
+TEST_CASE("the size of a parcel is known before it is packed") {
+  const Generation generation = four_parts();
+  adapt::Fields fields;
+  for (const SubdomainId s : generation.here)
+    CHECK(packed_size(generation, s, fields) == pack(generation, s, fields).size());
+  const Mesh& mesh = generation.piece.mesh;
+  fields["u"] = make_field(mesh, "u", std::vector<double>(2 * mesh.points.size(), 1), FieldPlace::kPoints,
+                           Transfer::kInterpolate);
+  fields["v"] =
+      make_field(mesh, "v", std::vector<double>(mesh.triangles.size(), 1), FieldPlace::kTriangles, Transfer::kConserve);
+  fields["w"] = make_field(mesh, "w", std::vector<double>(3 * mesh.triangles.size(), 1), FieldPlace::kCorners,
+                           Transfer::kConserve);
+  for (const SubdomainId s : generation.here)
+    CHECK(packed_size(generation, s, fields) == pack(generation, s, fields).size());
+}
+
 TEST_CASE("a saved session is refused that has other parts than it says, or comes from another machine") {
   const TemporaryFolder folder;
   const std::string path = folder.path() / "mesh.h5";
@@ -134,7 +151,10 @@ TEST_CASE("a saved session is refused that has other parts than it says, or come
   head.shares = 4;
   const auto refusal = [&] { return error_text<InputError>([&] { static_cast<void>(read_saved(path, alone)); }); };
   const auto parcel = [&](SubdomainId s) { return pack(generation, s, {}); };
-  save(path, head, generation.here, parcel, 1 << 20, alone);
+  const auto save_by = [&](const std::function<Bytes(SubdomainId)>& packed) {
+    save(path, head, {generation.here, [&](SubdomainId s) { return packed(s).size(); }, packed}, alone);
+  };
+  save_by(parcel);
   REQUIRE(refusal() == "no error");
 
   const Bytes sound = PartsFile(path, kAdaptiveMeshFile).head(kAdaptiveMeshFile.head);
@@ -154,7 +174,7 @@ TEST_CASE("a saved session is refused that has other parts than it says, or come
   CHECK(mentions(refusal(), "it was saved by another build of driftmesh, or on another kind of machine"));
 
   const auto swapped = [&](SubdomainId s) { return parcel(SubdomainId{3 - to_int(s)}); };
-  save(path, head, generation.here, swapped, 1 << 20, alone);
+  save_by(swapped);
   CHECK(mentions(refusal(), "subdomain 0 is another one"));
 }
 
