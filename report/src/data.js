@@ -18,11 +18,15 @@ export function unpacked(text) {
   return bytes.subarray(0, bytes.length - padding);
 }
 
-async function bytesOf(element) {
+/** The compressed bytes of an element, which goes: its text is as large, and nobody asks for it again. */
+function packedOf(element) {
   const packed = unpacked(element.textContent);
-  element.remove();  // the text is as large as the bytes, and nobody asks for it again
-  return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
+  element.remove();
+  return packed;
 }
+
+const inflated = (packed) => new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
+const bytesOf = (element) => inflated(packedOf(element));
 
 const arrayTypes = { Float32: Float32Array, Uint32: Uint32Array, Int32: Int32Array };
 
@@ -46,4 +50,21 @@ export async function readMesh() {
     else mesh.columns[column] = array;
   }
   return mesh;
+}
+
+const numbersIn = (text) => text.split(" ").map(Number);
+
+/** Frames of one field: {name, field, atPoints, middle, box, range, frames: [{mesh, time}], mesh(k), values(k)}, or null. The arrays of mesh
+ * or frame k are promised when they are asked for; time is null where it is not known. Points and the box are seen from the middle. */
+export function readSeries() {
+  const about = document.querySelector("script[data-series]");
+  if (!about) return null;
+  const { series: name, field, at, middle, box, range } = about.dataset;
+  const elementsOf = (kind) => [...document.querySelectorAll(`script[data-frame=${kind}]`)];
+  const frames = elementsOf("values").map(({ dataset: { of, time } }) => ({ mesh: Number(of), time: time === undefined ? null : Number(time) }));
+  const [points, triangles, values] = ["points", "triangles", "values"].map((kind) => elementsOf(kind).map(packedOf));
+  const [left, bottom, right, top] = numbersIn(box);
+  return { name, field, atPoints: at === "points", middle: numbersIn(middle), box: [[left, bottom], [right, top]], range: numbersIn(range), frames,
+    mesh: async (k) => ({ points: new Float32Array(await inflated(points[k])), triangles: new Uint32Array(await inflated(triangles[k])) }),
+    values: async (k) => new Float32Array(await inflated(values[k])) };
 }

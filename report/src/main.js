@@ -1,10 +1,11 @@
 import { comparison, timesOfRuns } from "./comparison.js";
-import { readMesh, readRuns } from "./data.js";
+import { readMesh, readRuns, readSeries } from "./data.js";
 import { element, number, section } from "./elements.js";
 import { meshSection } from "./mesh_section.js";
 import { oneRun } from "./one_run.js";
 import { tableOfRuns } from "./overview.js";
 import { secondsOf } from "./runs.js";
+import { seriesSection } from "./series_section.js";
 
 /** The chosen run, and beside it another one if a reader wants that: {place, choose(k)}. */
 function chosenRun(runs, follow) {
@@ -27,24 +28,26 @@ function chosenRun(runs, follow) {
   return { place, show, choose };
 }
 
-function titleOf(runs, mesh) {
+function titleOf(runs, mesh, series) {
   const names = [...new Set(runs.map(({ record }) => record.experiment?.name))].filter(Boolean);
   if (names.length > 0) return names.join(", ");
-  return mesh?.name ?? (runs.length === 1 ? runs[0].record.input?.file : null) ?? "driftmesh report";
+  return mesh?.name ?? series?.name ?? (runs.length === 1 ? runs[0].record.input?.file : null) ?? "driftmesh report";
 }
 
-function aboutOf(runs, mesh) {
+function aboutOf(runs, mesh, series) {
   const versions = [...new Set(runs.map((r) => r.record.program))].filter(Boolean);
   return [`A report by driftmesh ${versions.join(" and ")}`.trim(), ...(runs.length > 0 ? [`${runs.length} run${runs.length === 1 ? "" : "s"}`] : []),
-    ...(mesh ? [`${number(mesh.triangles.length / 3)} triangles`] : [])].join(", ");
+    ...(mesh ? [`${number(mesh.triangles.length / 3)} triangles`] : []),
+    ...(series ? [`${number(series.frames.length)} frame${series.frames.length === 1 ? "" : "s"}`] : [])].join(", ");
 }
 
 async function fill(report) {
   const [runs, mesh] = await Promise.all([readRuns(), readMesh()]);
-  const title = titleOf(runs, mesh);
+  const series = readSeries();
+  const title = titleOf(runs, mesh, series);
   document.title = title;
   document.querySelector("h1").textContent = title;
-  document.getElementById("about").textContent = aboutOf(runs, mesh);
+  document.getElementById("about").textContent = aboutOf(runs, mesh, series);
   report.replaceChildren();
   let seen = null;
   const chosen = chosenRun(runs, (record) => seen?.follow(record));
@@ -57,6 +60,11 @@ async function fill(report) {
     seen = meshSection(mesh, runs[0]?.record);
     report.append(seen.place);
     seen.start();
+  }
+  if (series) {
+    const played = seriesSection(series);
+    report.append(played.place);
+    await played.start();
   }
   if (runs.length > 0) {
     report.append(chosen.place);

@@ -1,10 +1,9 @@
 import { chartSection, told } from "./charts.js";
 import { element, number, section } from "./elements.js";
 import { categoryLegend, scaleLegend } from "./legends.js";
+import { meshCanvas } from "./mesh_canvas.js";
 import { sortTriangles } from "./mesh_levels.js";
 import { histogram, intoSquare, measure, rangeOf } from "./mesh_values.js";
-import { MeshView } from "./mesh_view.js";
-import { navigate, whenPointed } from "./navigation.js";
 import { replayControls } from "./replay.js";
 import { movesOf, ownersAt, secondsOf } from "./runs.js";
 
@@ -28,9 +27,6 @@ function categoriesOf(name, column, order) {
   const place = new Map(names.map((value, n) => [value, n]));
   return { numbers: Uint32Array.from(order, (t) => place.get(column[t])), names };
 }
-
-/** As high as the mesh wants it, within reason. */
-const heightFor = ([x, y], width) => Math.max(260, Math.min(680, 0.8 * window.innerHeight, (width * y) / (x || 1)));
 
 /** The mesh in the order in which it is drawn, with its columns; `length` and `middle` lead back to the input. */
 function prepared(mesh) {
@@ -76,32 +72,21 @@ function distributions(shown, range) {
 
 /** The mesh with its controls: {place, start(), follow(record)}. start() once the place is in the page. */
 export function meshSection(mesh, firstRecord) {
-  let record = firstRecord, view = null, waiting = false;
+  let record = firstRecord;
   const place = section(`Mesh ${mesh.name}`, "Drag or arrow keys move, the wheel or + and - zoom, 0 shows all. Where triangles are smaller "
     + "than a pixel, their mean is shown.");
-  const canvas = element("canvas", { tabindex: 0, role: "img", "aria-label": "The mesh", id: "mesh" });
   const colorBy = element("select", { id: "color-by" });
   const replay = replayControls("", () => paint());
   const key = element("span", { class: "legend", id: "legend" });
-  const said = element("p", { class: "told", id: "told", "aria-live": "polite" });
+  const drawn = meshCanvas({ canvasId: "mesh", saidId: "told", label: "The mesh" }, (t, at) => describe(t, at));
   place.append(element("div", { class: "controls" }, element("label", {}, "Color: ", colorBy), key, replay.place),
-    element("div", { class: "mesh" }, canvas), said);
+    element("div", { class: "mesh" }, drawn.canvas), drawn.said);
 
   const shown = prepared(mesh);
   const unitArea = shown.length ** 2;
   const scales = scalesOf(shown);
   place.append(distributions(shown, rangeOf(shown.areas)));
 
-  const redraw = () => {
-    if (waiting || !view) return;
-    waiting = true;
-    requestAnimationFrame(() => {
-      waiting = false;
-      view.resize();
-      view.draw();
-      canvas.dataset.drawn = view.drawn;
-    });
-  };
   const hasOwners = () => shown.columns.subdomain && record?.cluster?.owners_before && movesOf(record).length > 0 &&
     shown.columns.subdomain.names.length <= record.cluster.owners_before.length;
   const offer = () => {
@@ -112,6 +97,7 @@ export function meshSection(mesh, firstRecord) {
     if (hasOwners()) replay.show(secondsOf(record));
   };
   const paint = () => {
+    const view = drawn.view();
     if (!view) return;
     const by = colorBy.value;
     replay.place.style.display = by === kOverTime ? "" : "none";
@@ -125,7 +111,7 @@ export function meshSection(mesh, firstRecord) {
       key.replaceChildren(...categoryLegend(shown.columns[by].names));
       view.byCategories(shown.columns[by].numbers);
     }
-    redraw();
+    drawn.redraw();
   };
   colorBy.addEventListener("change", paint);
 
@@ -136,33 +122,14 @@ export function meshSection(mesh, firstRecord) {
     return `triangle ${number(shown.order[t])} at (${at.join(", ")}), area ${number(shown.areas[t] * unitArea)}, smallest angle `
       + `${number(shown.angles[t])} degrees${columns.join("")}`;
   };
-  const find = (x, y) => {
-    const t = view.triangleAt(x, y);
-    said.textContent = t < 0 ? "" : describe(t, view.placeOf(x, y));
-    if (view.marked === t) return;
-    view.marked = t;
-    redraw();
-  };
-
   const start = () => {
-    try {
-      view = new MeshView(canvas, shown);
-    } catch (error) {
-      said.textContent = `The mesh cannot be drawn: ${error.message}.`;
-      return;
-    }
-    navigate(canvas, view, redraw);
-    whenPointed(canvas, find);
-    new ResizeObserver(() => {
-      canvas.style.height = `${heightFor(shown.half, canvas.clientWidth)}px`;
-      redraw();
-    }).observe(canvas);
+    if (!drawn.begin(shown)) return;
     offer();
     paint();
   };
   const follow = (next) => {
     record = next;
-    if (!view) return;
+    if (!drawn.view()) return;
     offer();
     paint();
   };

@@ -1,18 +1,42 @@
 // Figures of triangles. Pure functions.
 
-/** Moved and scaled into a square of side 2. In place; returns {length, middle, half}: of a unit, and of
- * all, in the former lengths; and half of the sides of all in the new ones. */
-export function intoSquare(points) {
+/** The low and the high corner of the least box around points. */
+export function boxAround(points) {
   const low = [Infinity, Infinity], high = [-Infinity, -Infinity];
   for (let i = 0; i < points.length; ++i) {
     const d = i & 1;
     if (points[i] < low[d]) low[d] = points[i];
     if (points[i] > high[d]) high[d] = points[i];
   }
+  return [low, high];
+}
+
+/** Moved and scaled so that the box, if not told otherwise around all, is in a square of side 2. In place; returns {length, middle,
+ * half}: of a unit, and of the box, in the former lengths; and half of the sides of the box in the new ones. */
+export function intoSquare(points, [low, high] = boxAround(points)) {
   const length = Math.max(high[0] - low[0], high[1] - low[1]) / 2 || 1;
   const middle = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2];
   for (let i = 0; i < points.length; ++i) points[i] = (points[i] - middle[i & 1]) / length;
   return { length, middle, half: [(high[0] - low[0]) / 2 / length, (high[1] - low[1]) / 2 / length] };
+}
+
+/** For each triangle the mean of the values at its corners. */
+export function meansOfCorners(values, triangles) {
+  const means = new Float32Array(triangles.length / 3);
+  for (let t = 0; t < means.length; ++t)
+    means[t] = (values[triangles[3 * t]] + values[triangles[3 * t + 1]] + values[triangles[3 * t + 2]]) / 3;
+  return means;
+}
+
+/** What the linear function with these values at the corners of triangle t is at a place. */
+export function valueAt({ points, triangles }, values, t, [x, y]) {
+  const [a, b, c] = triangles.subarray(3 * t, 3 * t + 3);
+  const ux = points[2 * b] - points[2 * a], uy = points[2 * b + 1] - points[2 * a + 1];
+  const vx = points[2 * c] - points[2 * a], vy = points[2 * c + 1] - points[2 * a + 1];
+  const wx = x - points[2 * a], wy = y - points[2 * a + 1];
+  const whole = ux * vy - uy * vx || 1;
+  const ofB = (wx * vy - wy * vx) / whole, ofC = (ux * wy - uy * wx) / whole;
+  return values[a] + ofB * (values[b] - values[a]) + ofC * (values[c] - values[a]);
 }
 
 /** Areas, smallest angles (degrees) and longest edges of all triangles. */

@@ -2,6 +2,7 @@
 
 import { ofCategory, onScale } from "./colors.js";
 import { kImages, levelFor, meansOf, numbersOf, rangesInSight } from "./mesh_levels.js";
+import { meansOfCorners } from "./mesh_values.js";
 import { imageFragments, imageVertices, kWidth, triangleFragments, triangleVertices } from "./shaders.js";
 
 function program(gl, vertices, fragments) {
@@ -45,15 +46,13 @@ const kNone = new Uint32Array(1);
 export class MeshView {
   constructor(canvas, mesh) {
     this.canvas = canvas;
-    this.mesh = mesh;
+    this.edges = true;
     const gl = (this.gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true }));
     if (!gl) throw new Error("this browser has no WebGL 2");
     gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
     this.program = program(gl, triangleVertices, triangleFragments);
     this.imageProgram = program(gl, imageVertices, imageFragments);
-    [this.numbers, this.lookup, this.image] = [gl.createTexture(), gl.createTexture(), gl.createTexture()];
-    upload(gl, 0, gl.createTexture(), mesh.points, 2, ["RG32F", "RG", "FLOAT"]);
-    upload(gl, 1, gl.createTexture(), mesh.triangles, 3, ["RGB32UI", "RGB_INTEGER", "UNSIGNED_INT"]);
+    [this.points, this.triangles, this.numbers, this.lookup, this.image] = Array.from({ length: 5 }, () => gl.createTexture());
     gl.bindVertexArray(gl.createVertexArray());
     this.pixel = gl.createFramebuffer();
     const target = gl.createRenderbuffer();
@@ -62,13 +61,21 @@ export class MeshView {
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.pixel);
     gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.RENDERBUFFER, target);
     this.transform = { k: 1, x: 0, y: 0 };
-    this.marked = -1;
+    this.show(mesh);
     this.byCategories(kNone);
   }
 
-  /** Colors triangles by their values (Float32Array) on a scale between the ends of `range`. */
-  byValues(values, range) {
-    this.color(values, new Uint32Array(values.buffer, values.byteOffset, values.length), range, kNone);
+  /** Another mesh, in the same square; its colors are to be told next. */
+  show(mesh) {
+    upload(this.gl, 0, this.points, mesh.points, 2, ["RG32F", "RG", "FLOAT"]);
+    upload(this.gl, 1, this.triangles, mesh.triangles, 3, ["RGB32UI", "RGB_INTEGER", "UNSIGNED_INT"]);
+    Object.assign(this, { mesh, marked: -1, shown: null });
+  }
+
+  /** Colors triangles by their values (Float32Array) on a scale between the ends of `range`, or linearly by those at points. What is not
+   * a number is gray. */
+  byValues(values, range, atPoints = false) {
+    this.color(values, new Uint32Array(values.buffer, values.byteOffset, values.length), range, kNone, atPoints);
   }
 
   /** Colors triangles by numbers from 0 (Uint32Array), or by what `lookup` has for these. */
@@ -76,13 +83,13 @@ export class MeshView {
     this.color(numbers, numbers, null, lookup);
   }
 
-  color(shown, bits, range, lookup) {
+  color(shown, bits, range, lookup, atPoints = false) {
     if (shown !== this.shown) {
       this.cells = {};
       upload(this.gl, 2, this.numbers, bits, 1, kNumbers);
     }
     upload(this.gl, 3, this.lookup, lookup, 1, kNumbers);
-    Object.assign(this, { shown, range, shownLookup: lookup.length > 1 ? lookup : null, imageLevel: null });
+    Object.assign(this, { shown, atPoints, range, shownLookup: lookup.length > 1 ? lookup : null, imageLevel: null });
   }
 
   resize() {
@@ -108,12 +115,13 @@ export class MeshView {
 
   /** The color of a cell of an image, null where there is nothing. */
   colorOf(value) {
-    if (this.range) return Number.isNaN(value) ? null : onScale((value - this.range[0]) / Math.max(this.range[1] - this.range[0], 1e-6));
+    if (this.range) return Number.isNaN(value) ? null : onScale((value - this.range[0]) / Math.max(this.range[1] - this.range[0], 1e-30));
     return value < 0 ? null : ofCategory(this.shownLookup ? this.shownLookup[value] : value);
   }
 
   cellsOf(level) {
-    const { mesh, shown } = this;
+    const { mesh } = this;
+    const shown = this.atPoints ? meansOfCorners(this.shown, mesh.triangles) : this.shown;
     this.cells[level] ??= this.range ? meansOf(mesh, level, shown, mesh.areas) : numbersOf(mesh, level, shown, mesh.areas);
     return this.cells[level];
   }
@@ -139,6 +147,8 @@ export class MeshView {
     ["points", "triangles", "numbers", "lookup"].forEach((name, unit) => gl.uniform1i(at(name), unit));
     gl.uniform4fv(at("view"), view);
     gl.uniform1i(at("scaled"), this.range ? 1 : 0);
+    gl.uniform1i(at("atPoints"), this.atPoints ? 1 : 0);
+    gl.uniform1i(at("edges"), this.edges ? 1 : 0);
     gl.uniform2fv(at("range"), this.range ?? [0, 1]);
     gl.uniform1i(at("pass"), pass);
     for (const [from, to] of ranges) gl.drawArrays(gl.TRIANGLES, 3 * from, 3 * (to - from));

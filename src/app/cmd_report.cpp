@@ -2,11 +2,13 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/commands.hpp"
 #include "app/mesh_input.hpp"
+#include "app/report_frames.hpp"
 #include "app/run_files.hpp"
 #include "cli/values.hpp"
 #include "driftmesh/error.hpp"
@@ -25,6 +27,7 @@ struct ReportCommand {
   std::vector<std::string> inputs;
   std::string mesh;
   std::string size_tree;
+  std::string field;
   std::string output = "report.html";
   ReadOptions reading;
 };
@@ -50,15 +53,20 @@ std::vector<float> sizes_in(const Mesh& mesh, const std::string& path) {
 
 void run_report(const ReportCommand& command) {
   if (command.inputs.empty() && command.mesh.empty())
-    throw cli::UsageError("name a run, a folder of runs, or a --mesh");
+    throw cli::UsageError("name a run, a folder of runs, meshes to be played, or a --mesh");
   if (fs::path(command.output).extension() != ".html")
     throw InputError({command.output}, "is not a page", "use a name that ends in .html");
   FileRegistry files;
   if (!command.size_tree.empty() && command.mesh.empty()) throw cli::UsageError("--size-tree needs a --mesh");
-  const std::vector<fs::path> records = study::records_of(command.inputs);
+  std::vector<std::string> runs, frames;
+  for (const std::string& input : command.inputs) (holds_frames(input) ? frames : runs).push_back(input);
+  if (!command.field.empty() && frames.empty()) throw cli::UsageError("--field needs meshes to be played");
+  const std::vector<fs::path> records = study::records_of(runs);
   for (const fs::path& record : records) files.reads(record.string(), "RUN");
   if (!command.mesh.empty()) register_mesh_input(files, command.mesh, "--mesh", command.reading);
   if (!command.size_tree.empty()) files.reads(command.size_tree, "--size-tree");
+  std::optional<FrameFiles> series;
+  if (!frames.empty()) series = list_frames(frames, files, command.reading);
   register_output(files, command.output, "--output");
   ReportedMesh mesh;
   if (!command.mesh.empty())
@@ -69,9 +77,17 @@ void run_report(const ReportCommand& command) {
         fmt::format("has {} triangles, and a page shows at most {}", mesh.mesh.triangles.size(), kMostTriangles),
         "make a picture with `driftmesh plot`");
   if (!command.size_tree.empty()) mesh.sizes = sizes_in(mesh.mesh, command.size_tree);
-  study::write_report(command.output, records, mesh);
-  fmt::print("{}: {} run{}{}\n", command.output, records.size(), records.size() == 1 ? "" : "s",
-             mesh.mesh.triangles.empty() ? "" : fmt::format(", {} triangles", mesh.mesh.triangles.size()));
+  std::optional<PackedFrames> packed;
+  if (series) packed = pack_frames(*series, command.field, kMostTriangles, command.reading);
+  study::write_report(command.output, records, mesh, packed ? &*packed : nullptr);
+  std::vector<std::string> parts;
+  const auto count = [&](std::size_t number, const char* word) {
+    if (number > 0) parts.push_back(fmt::format("{} {}{}", number, word, number == 1 ? "" : "s"));
+  };
+  count(records.size(), "run");
+  count(mesh.mesh.triangles.size(), "triangle");
+  count(packed ? packed->size() : 0, "frame");
+  fmt::print("{}: {}\n", command.output, fmt::join(parts, ", "));
 }
 
 }  // namespace
@@ -80,13 +96,14 @@ cli::Command report_command() {
   const auto command = std::make_shared<ReportCommand>();
   return {
       .name = "report",
-      .summary = "Make a page for browsers of runs and a mesh",
+      .summary = "Make a page for browsers of runs, a mesh, or meshes that follow each other",
       .options =
           {{.kind = cli::Option::Kind::kPositional,
             .name = "run",
             .value = "RUN",
             .help = "Records of runs (--json of mesh, or run-*.json), or folders that `driftmesh run` has written. A "
-                    "trace beside a record adds the timeline",
+                    "trace beside a record adds the timeline. Meshes, or a .pvd that names some, are frames that the "
+                    "page plays, with one field as colors",
             .repeats = true,
             .completes = cli::Option::Completes::kFile,
             .take = cli::into(command->inputs)},
@@ -102,6 +119,10 @@ cli::Command report_command() {
                 "shows them, and edges in relation to them",
             .completes = cli::Option::Completes::kFile,
             .take = cli::into(command->size_tree)},
+           {.name = "field",
+            .value = "NAME",
+            .help = "The data at points or triangles of the meshes that are played, if there are several",
+            .take = cli::into(command->field)},
            {.name = "output",
             .letter = 'o',
             .value = "FILE",
@@ -110,7 +131,7 @@ cli::Command report_command() {
             .completes = cli::Option::Completes::kFile,
             .take = cli::into(command->output)},
            allow_outside_option(command->reading)},
-      .examples = {"driftmesh report results/ -o report.html",
+      .examples = {"driftmesh report results/ -o report.html", "driftmesh report flow_*.vtu --field depth -o flow.html",
                    "driftmesh mesh bay.poly --area 5000 -o bay.vtu --json bay.json && driftmesh report bay.json --mesh "
                    "bay.vtu"},
       .exit_codes = "0 done, 1 error, 2 wrong usage",

@@ -28,7 +28,7 @@ void try_to_open(const std::string& file) {
 cli::Option allow_outside_option(ReadOptions& options) {
   return {.kind = cli::Option::Kind::kFlag,
           .name = "allow-outside",
-          .help = "Let a .pvtu name pieces outside of its own folder",
+          .help = "Let a .pvtu or .pvd name files outside of its own folder",
           .take = cli::into(options.allow_outside)};
 }
 

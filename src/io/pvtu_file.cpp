@@ -4,12 +4,11 @@
 #include <system_error>
 #include <utility>
 
-#include "base/file_identity.hpp"
-#include "base/key_error.hpp"
 #include "base/read_file.hpp"
 #include "base/xml_text.hpp"
 #include "driftmesh/error.hpp"
 #include "io/byte_cursor.hpp"
+#include "io/file_beside.hpp"
 #include "io/mesh_file.hpp"
 #include "io/other_coordinates.hpp"
 #include "io/pvtu_format.hpp"
@@ -103,14 +102,10 @@ class PvtuParser {
   void add_piece(const XmlTag& tag) {
     const std::string source = unescaped(std::string(tag.attribute("Source")));
     if (source.empty()) throw InputError({file_, tag.line}, "has a Piece without Source", kDamaged);
-    const fs::path folder = fs::path(file_).parent_path();
-    const std::string path = (folder / source).string();
+    std::string path = file_beside(file_, tag.line, "piece", source, options_);
     if (std::find(pvtu_.pieces.begin(), pvtu_.pieces.end(), path) != pvtu_.pieces.end())
       throw InputError({file_, tag.line}, "names the piece " + source + " twice", kDamaged);
-    pvtu_.pieces.push_back(path);
-    if (!options_.allow_outside && !lies_within(pvtu_.pieces.back(), folder.empty() ? "." : folder.string()))
-      throw Keyed<InputError>({file_, tag.line}, "names the piece " + source + ", outside of its own folder",
-                              "move it there, or allow it with {allow-outside}");
+    pvtu_.pieces.push_back(std::move(path));
   }
 
   const std::string& file_;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "driftmesh/mesh.hpp"
+#include "report/packed_frames.hpp"
 
 namespace driftmesh {
 
@@ -23,8 +24,9 @@ struct ReportedMesh {
 /// Whether this program was built with the page (it is put together by npm).
 [[nodiscard]] bool has_report_page();
 
-/// A page of HTML that shows runs, and a mesh unless it has no triangles, in a browser, without a network: scripts,
-/// styles and data are in it. Throws Error without has_report_page().
-[[nodiscard]] std::string report_page(const std::vector<ReportedRun>& runs, const ReportedMesh& mesh);
+/// A page of HTML that shows runs, a mesh unless it has no triangles, and frames unless null, in a browser, without a
+/// network: scripts, styles and data are in it. Throws Error without has_report_page().
+[[nodiscard]] std::string report_page(const std::vector<ReportedRun>& runs, const ReportedMesh& mesh,
+                                      const PackedFrames* frames = nullptr);
 
 }  // namespace driftmesh

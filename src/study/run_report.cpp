@@ -59,12 +59,13 @@ std::vector<fs::path> records_of(const std::vector<std::string>& inputs) {
   return records;
 }
 
-void write_report(const std::string& path, const std::vector<fs::path>& records, const ReportedMesh& mesh) {
+void write_report(const std::string& path, const std::vector<fs::path>& records, const ReportedMesh& mesh,
+                  const PackedFrames* frames) {
   std::vector<ReportedRun> runs;
   runs.reserve(records.size());
   for (const fs::path& record : records) runs.push_back(read_run(record));
   AtomicFile page(path);
-  page.write(report_page(runs, mesh));
+  page.write(report_page(runs, mesh, frames));
   page.commit();
 }
 

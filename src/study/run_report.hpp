@@ -15,8 +15,10 @@ inline constexpr const char* kTraceEnding = ".trace.json";
 /// InputError for a folder without any.
 [[nodiscard]] std::vector<std::filesystem::path> records_of(const std::vector<std::string>& inputs);
 
-/// Writes a page of the runs with these records, and a mesh unless it has no triangles. A trace beside a record is
-/// read, too. Throws InputError for what is not the record of a run, Error without has_report_page().
-void write_report(const std::string& path, const std::vector<std::filesystem::path>& records, const ReportedMesh& mesh);
+/// Writes a page of the runs with these records, a mesh unless it has no triangles, and frames unless null. A trace
+/// beside a record is read, too. Throws InputError for what is not the record of a run, Error without
+/// has_report_page().
+void write_report(const std::string& path, const std::vector<std::filesystem::path>& records, const ReportedMesh& mesh,
+                  const PackedFrames* frames = nullptr);
 
 }  // namespace driftmesh::study
