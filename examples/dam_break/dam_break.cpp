@@ -1,7 +1,7 @@
 // Shallow water on ranks, with a mesh that follows the wave: a dam breaks, the water runs over a wet plain and an
 // island and climbs a beach. Finite volumes on triangles, explicit, first order.
 //
-//   mpiexec -n 4 dam_break [shortest edge] [seconds] [FILE.pvtu]
+//   mpiexec -n 4 dam_break [shortest edge] [seconds] [FILE.pvd]
 //
 // Of each triangle the program keeps the mean depth and discharge. Every few steps it asks for short edges where the
 // water level jumps from a triangle to the next, and the fields go to the new mesh with their integrals. Fluxes are
@@ -17,6 +17,7 @@
 #include <driftmesh/driftmesh.hpp>
 #include <driftmesh/mpi/adaptive.hpp>
 #include <driftmesh/mpi/distributed.hpp>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <string>
@@ -29,6 +30,7 @@ using driftmesh::Point;
 
 constexpr double kGravity = 9.81, kDry = 1e-4;
 constexpr int kStepsPerMesh = 10;
+constexpr double kSecondsPerFrame = 0.1;
 
 /// Meters above the plain: an island and, at the far end, a beach.
 double bed(const Point& p) {
@@ -158,6 +160,28 @@ class Basin {
     return length;
   }
 
+  /// Gives the triangles around those of this rank the water that neighbors have there.
+  void swap_ghosts() {
+    std::vector<std::vector<Water>> sent, received;
+    std::vector<MPI_Request> requests;
+    for (const auto& neighbor : ghosted_.neighbors) {
+      auto& out = sent.emplace_back();
+      for (const std::int32_t t : neighbor.sent) out.push_back(water_[at(t)]);
+      received.emplace_back(neighbor.received.size());
+    }
+    for (std::size_t n = 0; n < sent.size(); ++n) {
+      const int rank = driftmesh::to_int(ghosted_.neighbors[n].rank);
+      MPI_Irecv(received[n].data(), static_cast<int>(3 * received[n].size()), MPI_DOUBLE, rank, 0, MPI_COMM_WORLD,
+                &requests.emplace_back());
+      MPI_Isend(sent[n].data(), static_cast<int>(3 * sent[n].size()), MPI_DOUBLE, rank, 0, MPI_COMM_WORLD,
+                &requests.emplace_back());
+    }
+    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+    for (std::size_t n = 0; n < received.size(); ++n)
+      for (std::size_t k = 0; k < received[n].size(); ++k)
+        water_[at(ghosted_.neighbors[n].received[k])] = received[n][k];
+  }
+
   /// Lengths at the points of this rank: short where the level jumps.
   [[nodiscard]] std::vector<double> lengths(double shortest) {
     swap_ghosts();
@@ -210,27 +234,6 @@ class Basin {
     }
     const Flux flux = flux_between(water_[other], ground_[other], water_[t], ground_[t], -nx, -ny);
     return {-flux.water, {-flux.momentum[1].x, -flux.momentum[1].y}};
-  }
-
-  void swap_ghosts() {
-    std::vector<std::vector<Water>> sent, received;
-    std::vector<MPI_Request> requests;
-    for (const auto& neighbor : ghosted_.neighbors) {
-      auto& out = sent.emplace_back();
-      for (const std::int32_t t : neighbor.sent) out.push_back(water_[at(t)]);
-      received.emplace_back(neighbor.received.size());
-    }
-    for (std::size_t n = 0; n < sent.size(); ++n) {
-      const int rank = driftmesh::to_int(ghosted_.neighbors[n].rank);
-      MPI_Irecv(received[n].data(), static_cast<int>(3 * received[n].size()), MPI_DOUBLE, rank, 0, MPI_COMM_WORLD,
-                &requests.emplace_back());
-      MPI_Isend(sent[n].data(), static_cast<int>(3 * sent[n].size()), MPI_DOUBLE, rank, 0, MPI_COMM_WORLD,
-                &requests.emplace_back());
-    }
-    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
-    for (std::size_t n = 0; n < received.size(); ++n)
-      for (std::size_t k = 0; k < received[n].size(); ++k)
-        water_[at(ghosted_.neighbors[n].received[k])] = received[n][k];
   }
 };
 
@@ -289,19 +292,38 @@ double shore(const Basin& basin, double from, double to) {
   return over_all(highest, MPI_MAX);
 }
 
-/// With the depth at points: the greatest around each, which all ranks agree on.
-void write(const Basin& basin, const driftmesh::DistributedAdaptiveMesh& mesh, const std::string& path) {
-  driftmesh::DistributedPiece piece = mesh.piece();
-  std::vector<double>& depths = piece.mesh.attributes;
-  depths.assign(basin.mesh().points.size(), 0);
-  for (std::size_t t = 0; t < basin.mesh().triangles.size(); ++t)
-    for (const std::int32_t v : basin.mesh().triangles[t])
-      depths[at(v)] = std::max(depths[at(v)], basin.water(t).depth);
-  depths.resize(piece.mesh.points.size());  // without those of ghosts
-  piece.mesh.attributes_per_point = 1;
-  piece.mesh.attribute_names = {"depth"};
-  driftmesh::write_distributed(MPI_COMM_WORLD, piece, path);
-}
+/// Files of meshes with the water on them, some each second, and one that lists these: FILE.pvd, FILE_0.pvtu, ...
+class Film {
+ public:
+  /// An empty path: nothing is written.
+  explicit Film(const std::string& path) : stem_(path.substr(0, path.rfind(".pvd"))) {}
+
+  /// If it is time: with the depth at points, the greatest around each, which all ranks agree on.
+  void add(double time, Basin& basin, const driftmesh::DistributedAdaptiveMesh& mesh) {
+    if (stem_.empty() || time < frames_ * kSecondsPerFrame) return;
+    basin.swap_ghosts();
+    driftmesh::DistributedPiece piece = mesh.piece();
+    std::vector<double>& depths = piece.mesh.attributes;
+    depths.assign(basin.mesh().points.size(), 0);
+    for (std::size_t t = 0; t < basin.mesh().triangles.size(); ++t)
+      for (const std::int32_t v : basin.mesh().triangles[t])
+        depths[at(v)] = std::max(depths[at(v)], basin.water(t).depth);
+    depths.resize(piece.mesh.points.size());  // without those of ghosts
+    piece.mesh.attributes_per_point = 1;
+    piece.mesh.attribute_names = {"depth"};
+    const std::string path = stem_ + "_" + std::to_string(frames_++) + ".pvtu";
+    driftmesh::write_distributed(MPI_COMM_WORLD, piece, path);
+    list_ += "<DataSet timestep=\"" + std::to_string(time) + "\" file=\"" + path.substr(path.rfind('/') + 1) + "\"/>\n";
+    if (piece.rank == driftmesh::Rank{0})
+      std::ofstream(stem_ + ".pvd") << "<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n"
+                                    << list_ << "</Collection>\n</VTKFile>\n";
+  }
+
+ private:
+  std::string stem_;
+  std::string list_;
+  int frames_ = 0;
+};
 
 bool run(double shortest, double end, const std::string& path) {
   driftmesh::DistributedAdaptiveMesh mesh(MPI_COMM_WORLD, basin(), {.min_angle = 25, .max_area = 0.5},
@@ -316,7 +338,9 @@ bool run(double shortest, double end, const std::string& path) {
   const double filled = volume(basin);
   double time = 0, triangles = 0, island = 0, beach = 0, moved = 0;
   int meshes = 0, steps = 0;
+  Film film(path);
   for (; time < end; ++meshes) {
+    film.add(time, basin, mesh);
     for (int k = 0; k < kStepsPerMesh && time < end; ++k, ++steps) time += basin.step(end - time);
     island = std::max(island, shore(basin, 20, 30));
     beach = std::max(beach, shore(basin, 32, 40));
@@ -329,10 +353,7 @@ bool run(double shortest, double end, const std::string& path) {
     basin = Basin(mesh.piece());
     take(mesh, basin);
   }
-  if (!path.empty()) {
-    (void)basin.lengths(shortest);  // so that ghosts are current
-    write(basin, mesh, path);
-  }
+  film.add(time, basin, mesh);
   const double lost = std::fabs(volume(basin) / filled - 1);
   if (mesh.piece().rank == driftmesh::Rank{0}) {
     std::printf("%d steps on %d meshes of %.0f triangles, %.0f moves of subdomains between %d ranks\n", steps, meshes,

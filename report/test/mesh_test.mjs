@@ -123,3 +123,19 @@ test("a mesh is moved into a square, and its place is not lost", () => {
   const { length, middle, half } = values.intoSquare(points);
   assert.deepEqual([[...points], { length, middle, half }], [[-1, -0.20000000298023224, 1, 0.20000000298023224], { length: 10, middle: [20, 22], half: [1, 0.2] }]);
 });
+
+test("frames share a square", () => {
+  const points = Float32Array.from([0, 0, 1, 0, 0, 1]);
+  assert.deepEqual(values.boxAround(points), [[0, 0], [1, 1]]);
+  const { length, middle, half } = values.intoSquare(points, [[-4, 0], [4, 2]]);
+  assert.deepEqual([[...points], { length, middle, half }], [[0, -0.25, 0.25, -0.25, 0, 0], { length: 4, middle: [0, 1], half: [1, 0.25] }]);
+});
+
+test("values at points are linear in triangles", () => {
+  const mesh = { points: Float32Array.from([0, 0, 2, 0, 0, 1, 2, 1]), triangles: Uint32Array.from([0, 1, 2, 1, 3, 2]) };
+  const plane = Float32Array.from([5, 9, 4, 8]);  // 5 + 2x - y
+  assert.deepEqual([...values.meansOfCorners(plane, mesh.triangles)], [6, 7]);
+  assert.equal(values.valueAt(mesh, plane, 0, [0.5, 0.25]), 5.75);
+  assert.equal(values.valueAt(mesh, plane, 1, [1.5, 0.75]), 7.25);
+  assert.ok(Number.isNaN(values.valueAt(mesh, Float32Array.from([NaN, 9, 4, 8]), 0, [0.5, 0.25])));
+});

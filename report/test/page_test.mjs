@@ -32,6 +32,30 @@ function makeReport() {
   driftmesh("report", file("runs"), "--mesh", file("mesh.vtu"), "--size-tree", file("mesh.tree"), "-o", file("report.html"));
 }
 
+/** Two meshes of a square, at three times, with values at the points that are the same everywhere at the last one. */
+function makeSeries() {
+  const sets = [[0, 4], [0.5, 4], [2, 9]].map(([time, cells], k) => {
+    writeFileSync(file(`u_${k}.vtu`), frameOf(cells, (x, y) => (k < 2 ? k + x - y : 1)));
+    return `<DataSet timestep="${time}" file="u_${k}.vtu"/>`;
+  });
+  writeFileSync(file("u.pvd"), `<VTKFile type="Collection"><Collection>${sets.join("")}</Collection></VTKFile>`);
+  driftmesh("report", file("u.pvd"), "--field", "u", "-o", file("series.html"));
+}
+
+function frameOf(cells, u) {
+  const side = [...Array(cells + 1).keys()], inner = side.slice(1);
+  const points = side.flatMap((j) => side.map((i) => [i / cells, j / cells]));
+  const at = (i, j) => j * (cells + 1) + i;
+  const triangles = inner.flatMap((j) => inner.flatMap((i) => [[at(i - 1, j - 1), at(i, j - 1), at(i, j)], [at(i - 1, j - 1), at(i, j), at(i - 1, j)]]));
+  const array = (type, name, values, components = 1) =>
+    `<DataArray type="${type}" Name="${name}" NumberOfComponents="${components}" format="ascii">${values.flat().join(" ")}</DataArray>`;
+  return `<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64"><UnstructuredGrid>
+<Piece NumberOfPoints="${points.length}" NumberOfCells="${triangles.length}"><PointData>${array("Float64", "u", points.map(([x, y]) => u(x, y)))}</PointData>
+<CellData></CellData><Points>${array("Float64", "Points", points.map((p) => [...p, 0]), 3)}</Points>
+<Cells>${array("Int64", "connectivity", triangles)}${array("Int64", "offsets", triangles.map((_, k) => 3 * k + 3))}
+${array("UInt8", "types", triangles.map(() => 5))}</Cells></Piece></UnstructuredGrid></VTKFile>`;
+}
+
 function fileOfSweep() {
   const path = file("sweep.yaml");
   writeFileSync(path, "sweep:\n  balance.policy: [none, greedy, stealing]\n");
@@ -183,7 +207,55 @@ async function checkReplay(page) {
   assert.notEqual(await colors(), before);
 }
 
+/** Frames are played, stepped through by keyboard, and pointed at, with the same colors for the same values. */
+async function checkSeries(page) {
+  await page.goto(pathToFileURL(resolve(file("series.html"))).href, { timeout: 120000 });
+  await page.waitForSelector("body[data-ready=yes]", { timeout: 120000 });
+  assert.equal(await text(page, "#about"), "A report by driftmesh, 3 frames");
+  assert.equal(await text(page, "#series-legend"), "u -12");
+  const atFrame = async (k, words) => {
+    await wait(page, (wanted) => document.getElementById("series").dataset.frame === wanted, String(k));
+    assert.equal(await text(page, "#series-clock"), words);
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    return page.$eval("#series", (canvas) => canvas.toDataURL());
+  };
+  const words = ["Frame 1 of 3, time 0, 32 triangles", "Frame 2 of 3, time 0.5, 32 triangles", "Frame 3 of 3, time 2, 162 triangles"];
+  const first = await atFrame(0, words[0]);
+  await page.focus("#series");
+  await page.keyboard.press(".");
+  assert.notEqual(await atFrame(1, words[1]), first);
+  await page.keyboard.press("End");
+  const last = await atFrame(2, words[2]);
+  await page.screenshot({ path: file("series.png") });
+  await page.keyboard.press("e");
+  assert.equal(await page.$eval("#series-edges", (box) => box.checked), false);
+  assert.notEqual(await atFrame(2, words[2]), last);
+  assert.equal(await page.$eval("#series", (canvas) => {
+    const copy = document.createElement("canvas");
+    copy.width = canvas.width, copy.height = canvas.height;
+    const context = copy.getContext("2d");
+    context.drawImage(canvas, 0, 0);
+    const { data } = context.getImageData(canvas.width / 4, canvas.height / 4, canvas.width / 2, canvas.height / 2);
+    return new Set(new Uint32Array(data.buffer)).size;
+  }), 1, "without edges one value has one color");
+  await page.keyboard.press(" ");
+  await atFrame(2, words[2]);
+  await wait(page, () => document.getElementById("series-play").textContent === "Play");
+  assert.equal(await page.$eval("#series-time", (slider) => slider.value), "2");
+  await page.keyboard.press("Home");
+  await atFrame(0, words[0]);
+  await page.keyboard.press(",");
+  await atFrame(0, words[0]);
+  const { x, y, width, height } = await (await page.$("#series")).boundingBox();
+  await page.mouse.move(x + width / 2 + 5, y + height / 2 + 5);
+  await wait(page, () => /^u 0\.0\d* at \(0\.5\d*, 0\.4\d*\), triangle \d+, area 0\.03125$/.test(document.getElementById("series-told").textContent));
+  await page.click("#series-play");
+  await atFrame(2, words[2]);
+  assert.equal(await text(page, "#series-told"), "");
+}
+
 makeReport();
+makeSeries();
 const browser = await puppeteer.launch({ executablePath: browserPath, headless: true,
   args: ["--no-sandbox", "--disable-dev-shm-usage", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"] });
 try {
@@ -205,6 +277,8 @@ try {
   await page.evaluate(() => new Promise((done) => setTimeout(done, 500)));
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= 390), "a phone shows it without scrolling sideways");
   await page.screenshot({ path: file("phone.png"), fullPage: true });
+  await page.setViewport({ width: 1280, height: 1000 });
+  await checkSeries(page);
   assert.deepEqual(problems, []);
 } finally {
   await browser.close();

@@ -19,6 +19,20 @@ def blocks(page, kind):
     return {name: zlib.decompress(base64.b64decode(text, validate=True)) for name, text in found}
 
 
+def frame(at_points=None, at_triangles=None, width=1):
+    """A .vtu of two triangles in a square, with data by name."""
+    def arrays(data, kind="Float64"):
+        return "".join(f'<DataArray type="{"Int64" if name == "global_number" else kind}" Name="{name}" NumberOfComponents="{3 if name == "Points" else 1}" format="ascii">'
+                       f'{" ".join(map(str, values))}</DataArray>' for name, values in (data or {}).items())
+    return f"""<?xml version="1.0"?>
+<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64"><UnstructuredGrid>
+<Piece NumberOfPoints="4" NumberOfCells="2"><PointData>{arrays(at_points)}</PointData><CellData>{arrays(at_triangles)}</CellData>
+<Points>{arrays({"Points": [0, 0, 0, width, 0, 0, width, 1, 0, 0, 1, 0]})}</Points>
+<Cells>{arrays({"connectivity": [0, 1, 2, 0, 2, 3], "offsets": [3, 6]}, "Int64")}{arrays({"types": [5, 5]}, "UInt8")}</Cells>
+</Piece></UnstructuredGrid></VTKFile>
+"""
+
+
 class Report(Cli):
     def setUp(self):
         super().setUp()
@@ -106,6 +120,78 @@ class Report(Cli):
         self.refuse("report", "missing.json", says=["missing.json"])
         self.refuse("report", "square.json", "-o", "report.pdf", says=["report.pdf", ".html"])
         self.refuse("report", code=2, says=["name a run"])
+        self.assertEqual(self.files(), before)
+
+
+class Frames(Cli):
+    """Meshes that follow each other."""
+
+    def about(self, page):
+        return dict(re.findall(r'data-(\w+)="([^"]*)"', re.search(r"<script[^>]* data-series=[^>]*>", page)[0]))
+
+    def frames(self, page):
+        """[(time, mesh, values)]"""
+        found = re.findall(r'data-frame="values" data-of="(\d+)"(?: data-time="([^"]*)")?>([^<]*)<', page)
+        unpacked = [zlib.decompress(base64.b64decode(text, validate=True)) for _, _, text in found]
+        return [(time, int(mesh), struct.unpack(f"<{len(values) // 4}f", values)) for (mesh, time, _), values in zip(found, unpacked)]
+
+    def page(self, *arguments, says):
+        self.assertEqual(self.succeed("report", *arguments), f"report.html: {says}\n")
+        return (self.folder / "report.html").read_text()
+
+    def test_data_at_points_and_at_triangles_are_played(self):
+        for k in (1, 2, 10):
+            self.write(f"flow_{k}.vtu", frame({"depth": [k, 0, 0, 0]}, {"speed": [k, 1.5], "depth, m": [0, 0]}, width=k))
+        files = ["flow_1.vtu", "flow_10.vtu", "flow_2.vtu"]  # as a shell lists them
+        page = self.page(*files, "--field", "depth", says="3 frames")
+        self.assertEqual(self.about(page), {"series": "flow_*.vtu", "field": "depth", "at": "points", "middle": "0.5 0.5",
+                                            "box": "-0.5 -0.5 9.5 0.5", "range": "0 10"})
+        self.assertEqual(self.frames(page), [("", 0, (1, 0, 0, 0)), ("", 1, (2, 0, 0, 0)), ("", 2, (10, 0, 0, 0))])
+        page = self.page(*files, "--field", "speed", says="3 frames")
+        self.assertEqual((self.about(page)["at"], self.about(page)["range"]), ("triangles", "1 10"))
+        self.assertEqual([values for _, _, values in self.frames(page)], [(1, 1.5), (2, 1.5), (10, 1.5)])
+
+    def test_names_that_differ_in_more_than_numbers_are_in_the_order_given(self):
+        for name, value in (("later", 2), ("earlier", 1)):
+            self.write(f"{name}.vtu", frame({"u": [value] * 4}))
+        page = self.page("later.vtu", "earlier.vtu", says="2 frames")  # one field need not be named
+        self.assertEqual(self.about(page)["series"], "later.vtu and 1 more")
+        self.assertEqual(self.frames(page), [("", 0, (2,) * 4), ("", 0, (1,) * 4)])  # the mesh is the same
+
+    def test_a_pvd_has_times(self):
+        for k in range(2):
+            self.write(f"u{k}.vtu", frame({"u": [k] * 4}))
+        sets = "".join(f'<DataSet timestep="{time}" group="" part="0" file="u{k}.vtu"/>' for k, time in ((1, 0.25), (0, 0)))
+        self.write("u.pvd", f'<VTKFile type="Collection" version="0.1"><Collection>{sets}</Collection></VTKFile>')
+        page = self.page("u.pvd", "--field", "u", says="2 frames")
+        self.assertEqual(self.about(page)["series"], "u.pvd")
+        self.assertEqual(self.frames(page), [("0", 0, (0,) * 4), ("0.25", 0, (1,) * 4)])
+        self.refuse("report", "u.pvd", "-o", "u1.vtu", says=["u1.vtu", ".html"])
+
+    def test_runs_and_a_mesh_can_be_beside_frames(self):
+        self.write("square.poly", SQUARE)
+        self.succeed("mesh", "square.poly", "-o", "square.vtu", "--json", "square.json")
+        self.write("u0.vtu", frame({"u": [0] * 4}))
+        page = self.page("square.json", "u0.vtu", "--mesh", "square.vtu", says="1 run, 2 triangles, 1 frame")
+        self.assertEqual((list(blocks(page, "run")), len(self.frames(page))), (["square"], 1))
+
+    def test_what_cannot_be_played_is_refused(self):
+        self.write("a0.vtu", frame({"u": [0] * 4, "v": [0] * 4}))
+        self.write("a1.vtu", frame({}, {"u": [0, 0]}))
+        self.write("a2.vtu", frame({"v": [0] * 4}))
+        self.write("bare.vtu", frame())
+        self.write("piece.vtu", frame({"u": [0] * 4, "global_number": [0, 1, 2, 3]}))
+        self.write("none.pvd", '<VTKFile type="Collection" version="0.1"><Collection></Collection></VTKFile>')
+        before = self.files()
+        self.refuse("report", "a0.vtu", "--field", "w", says=["a0.vtu", "has no field 'w'", "'u', 'v'"])
+        self.refuse("report", "a0.vtu", says=["a0.vtu", "has the fields 'u', 'v'", "--field"])
+        self.refuse("report", "a0.vtu", "a2.vtu", "--field", "u", says=["a2.vtu", "has no field 'u', which frames before it have"])
+        self.refuse("report", "a0.vtu", "a1.vtu", "--field", "u", says=["a1.vtu", "has 'u' at triangles, and frames before it at points"])
+        self.refuse("report", "bare.vtu", says=["bare.vtu", "has no data at points or triangles"])
+        self.refuse("report", "piece.vtu", says=["piece.vtu", "is a piece of a mesh", ".pvtu"])
+        self.refuse("report", "none.pvd", says=["none.pvd", "names no meshes"])
+        self.refuse("report", "missing.vtu", says=["missing.vtu"])
+        self.refuse("report", "--mesh", "a0.vtu", "--field", "u", code=2, says=["--field needs meshes to be played"])
         self.assertEqual(self.files(), before)
 
 
