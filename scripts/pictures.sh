@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the pictures of reports in docs/images anew, in a browser without a window: two minutes on two idle cores.
+# Makes the pictures of reports in docs/images anew, in a browser without a window: three minutes on two idle cores.
 #   scripts/pictures.sh [PRESET]        PRESET: a build with the page of reports (default: release)
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/env.sh"
@@ -50,3 +50,9 @@ shoot two/report.html "$images" "$at_the_end" corner-moves=.timeline corner-load
 say "144 ranks of three speeds"
 driftmesh run configs/sciclone-144.yaml --quiet --set input.generate=pipe --set balance.policy=none -o sciclone
 shoot sciclone/report.html "$images" sciclone-144-time=.rank-times
+
+say "Water on two ranks"
+mpirun -n 2 "$build/examples/dam_break/dam_break" 0.2 6 dam.pvd
+driftmesh report dam.pvd --field depth -o dam.html
+shoot dam.html "$images" '!{ const s = document.getElementById("series-time"); s.value = 35; s.dispatchEvent(new Event("input")); }' \
+  following-page=section:has\(#series\)
