@@ -345,7 +345,7 @@ cli::Command adapt_command() {
           .options = adapt_options(*command),
           .notes =
               "The outline, markers, regions and names are those of the mesh, unless --outline gives another one. "
-              "What data it has at points, and in .vtu, .msh and .h5 at triangles, comes along.",
+              "What data it has at points, and in .vtu, .pvtu, .msh and .h5 at triangles, comes along.",
           .examples = {"driftmesh adapt flow.vtu --lengths h -o next.vtu",
                        "driftmesh adapt port.vtu --outline new-pier.geojson --map numbers.csv -o next.vtu"},
           .exit_codes = "0 done, 1 error, 2 wrong usage, 3 stopped by a limit",

@@ -168,7 +168,7 @@ Mesh read(const std::string& path, const ReadOptions& options, TriangleData* dat
   const MeshFormat& format = format_of(path);
   Mesh mesh;
   if (data != nullptr && format.read_with_data != nullptr) {
-    mesh = format.read_with_data(path, *data);
+    mesh = format.read_with_data(path, options, *data);
   } else if (format.read != nullptr) {
     mesh = format.read(path, options);
   } else if (format.parse != nullptr) {

@@ -39,8 +39,8 @@ class PieceFiles {
   explicit PieceFiles(const std::string& path, const ReadOptions& options = {});
 
   [[nodiscard]] std::size_t size() const;
-  /// Piece `k`. Threads may read at the same time.
-  [[nodiscard]] Mesh read(std::size_t k) const;
+  /// Piece `k`; `data`: those at triangles are put there, unless null. Threads may read at the same time.
+  [[nodiscard]] Mesh read(std::size_t k, TriangleData* data = nullptr) const;
   /// The size of the largest one.
   [[nodiscard]] std::uint64_t most_bytes() const;
 

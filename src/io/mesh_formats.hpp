@@ -34,7 +34,7 @@ struct MeshFormat {
   /// The same with what they have at triangles besides, and a mesh written with such data. Null: the format has no
   /// place for them.
   Mesh (*parse_with_data)(const std::string& file, std::string_view bytes, TriangleData& data) = nullptr;
-  Mesh (*read_with_data)(const std::string& path, TriangleData& data) = nullptr;
+  Mesh (*read_with_data)(const std::string& path, const ReadOptions& options, TriangleData& data) = nullptr;
   void (*write_with_data)(const Mesh& mesh, const TriangleData& data, const std::string& path,
                           const WriteOptions& options) = nullptr;
 

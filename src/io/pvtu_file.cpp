@@ -143,8 +143,8 @@ std::size_t PieceFiles::size() const {
   return paths_.size();
 }
 
-Mesh PieceFiles::read(std::size_t k) const {
-  Mesh mesh = read_vtu(paths_[k], arrays_);
+Mesh PieceFiles::read(std::size_t k, TriangleData* data) const {
+  Mesh mesh = read_vtu(paths_[k], arrays_, data);
   return_to_plane(mesh, paths_[k]);
   return mesh;
 }
@@ -166,11 +166,46 @@ std::vector<Mesh> read_pieces(const std::string& path, const ReadOptions& option
   return pieces;
 }
 
-Mesh read_pvtu(const std::string& path, const ReadOptions& options) {
+namespace {
+
+/// Appends the data of a piece to those of the pieces before it. What not all have goes.
+void append(TriangleData& all, const TriangleData& piece, bool is_first) {
+  if (is_first) {
+    all = piece;
+    return;
+  }
+  std::erase_if(all, [&](const auto& named) { return !piece.contains(named.first); });
+  for (auto& [name, values] : all) {
+    const std::vector<double>& more = piece.at(name);
+    values.insert(values.end(), more.begin(), more.end());
+  }
+}
+
+void put_in_order(TriangleData& data, const std::vector<std::size_t>& order) {
+  for (auto& named : data) {
+    std::vector<double> values;
+    values.reserve(order.size());
+    for (const std::size_t t : order) values.push_back(named.second[t]);
+    named.second = std::move(values);
+  }
+}
+
+}  // namespace
+
+Mesh read_pvtu(const std::string& path, const ReadOptions& options, TriangleData* data) {
   MergeFaults faults;
   Mesh mesh;
   try {
-    mesh = merge_pieces(read_pieces(path, options), faults);
+    const PieceFiles files(path, options);
+    std::vector<Mesh> pieces;
+    for (std::size_t k = 0; k < files.size(); ++k) {
+      TriangleData own;
+      pieces.push_back(files.read(k, data != nullptr ? &own : nullptr));
+      if (data != nullptr) append(*data, own, k == 0);
+    }
+    std::vector<std::size_t> order;
+    mesh = merge_pieces(pieces, faults, &order);
+    if (data != nullptr) put_in_order(*data, order);
   } catch (const InputError&) {
     throw;
   } catch (const Error& error) {

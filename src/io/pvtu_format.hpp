@@ -26,7 +26,8 @@ struct Pvtu {
 /// The same from memory; `file` is for messages, and its folder is where the pieces are.
 [[nodiscard]] Pvtu parse_pvtu(const std::string& file, std::string_view bytes, const ReadOptions& options = {});
 
-/// The whole mesh of a .pvtu (see merge_pieces). Throws InputError if its pieces contradict each other.
-[[nodiscard]] Mesh read_pvtu(const std::string& path, const ReadOptions& options = {});
+/// The whole mesh of a .pvtu (see merge_pieces). `data`: those at triangles that all pieces have are put there, unless
+/// null. Throws InputError if its pieces contradict each other.
+[[nodiscard]] Mesh read_pvtu(const std::string& path, const ReadOptions& options = {}, TriangleData* data = nullptr);
 
 }  // namespace driftmesh

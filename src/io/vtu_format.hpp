@@ -115,7 +115,9 @@ struct DeclaredArray {
 /// base64 or as text, compressed by zlib or not. Points may come as any numbers; arrays on cells of other names are
 /// ignored. Cells that are ghosts (vtkGhostType) are left out, with points that only they use; a line that is a side of
 /// a triangle stays. A piece must have the arrays that are `declared` for it.
-[[nodiscard]] Mesh read_vtu(const std::string& path, std::span<const DeclaredArray> declared = {});
+/// `data`: those at triangles are put there, unless null (see parse_vtu_triangle_data).
+[[nodiscard]] Mesh read_vtu(const std::string& path, std::span<const DeclaredArray> declared = {},
+                            TriangleData* data = nullptr);
 /// The same from memory; `file` is for messages.
 [[nodiscard]] Mesh parse_vtu(const std::string& file, std::string_view bytes,
                              std::span<const DeclaredArray> declared = {});

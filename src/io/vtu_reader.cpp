@@ -243,9 +243,11 @@ Mesh parse_vtu(const std::string& file, std::string_view bytes, std::span<const 
   return mesh;
 }
 
-Mesh read_vtu(const std::string& path, std::span<const DeclaredArray> declared) {
+Mesh read_vtu(const std::string& path, std::span<const DeclaredArray> declared, TriangleData* data) {
   const FileBytes bytes(path, kBeginsXml);
-  return parse_vtu(path, bytes.view(), declared);
+  Mesh mesh = parse_vtu(path, bytes.view(), declared);
+  if (data != nullptr) *data = parse_vtu_triangle_data(path, bytes.view());
+  return mesh;
 }
 
 }  // namespace driftmesh

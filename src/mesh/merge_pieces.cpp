@@ -20,8 +20,9 @@ bool same_bits(double a, double b) {
 
 class Merger {
  public:
-  Merger(std::span<const Mesh* const> pieces, MergeFaults& faults, Numbering numbering)
-      : pieces_(pieces), faults_(faults), numbering_(numbering) {}
+  Merger(std::span<const Mesh* const> pieces, MergeFaults& faults, Numbering numbering,
+         std::vector<std::size_t>* order = nullptr)
+      : pieces_(pieces), faults_(faults), numbering_(numbering), order_(order) {}
 
   Mesh merge() {
     count_points();
@@ -179,6 +180,15 @@ class Merger {
     std::stable_sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.subdomain < b.subdomain; });
     reserve_triangles(count);
     for (const Run& run : runs) take_run(run);
+    if (order_ != nullptr) tell_order(runs);
+  }
+
+  void tell_order(const std::vector<Run>& runs) {
+    std::vector<std::size_t> first{0};  // of each piece
+    for (const Mesh* piece : pieces_) first.push_back(first.back() + piece->triangles.size());
+    order_->clear();
+    for (const Run& run : runs)
+      for (std::size_t t = run.begin; t < run.end; ++t) order_->push_back(first[run.piece] + t);
   }
 
   void reserve_triangles(std::size_t count) {
@@ -251,6 +261,7 @@ class Merger {
   std::span<const Mesh* const> pieces_;
   MergeFaults& faults_;
   Numbering numbering_;
+  std::vector<std::size_t>* order_;  // null: nobody asks
   Mesh whole_;
   std::vector<std::int64_t> numbers_;  // ascending; empty unless gaps are left out
   std::vector<Holder> holder_;         // one for each point
@@ -265,10 +276,10 @@ Mesh merge_pieces(std::span<const Mesh* const> pieces, MergeFaults& faults, Numb
   return Merger(pieces, faults, numbering).merge();
 }
 
-Mesh merge_pieces(std::span<const Mesh> pieces, MergeFaults& faults) {
+Mesh merge_pieces(std::span<const Mesh> pieces, MergeFaults& faults, std::vector<std::size_t>* order) {
   std::vector<const Mesh*> all;
   for (const Mesh& piece : pieces) all.push_back(&piece);
-  return merge_pieces(all, faults);
+  return Merger(all, faults, Numbering::kComplete, order).merge();
 }
 
 }  // namespace driftmesh

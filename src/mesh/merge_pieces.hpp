@@ -39,6 +39,8 @@ enum class Numbering : std::uint8_t {
 /// the gaps are closed). Throws Error if a piece has no numbers, or negative ones.
 [[nodiscard]] Mesh merge_pieces(std::span<const Mesh* const> pieces, MergeFaults& faults,
                                 Numbering numbering = Numbering::kComplete);
-[[nodiscard]] Mesh merge_pieces(std::span<const Mesh> pieces, MergeFaults& faults);
+/// `order`, unless null: of each triangle of the whole the number among those of all pieces, one piece after the other.
+[[nodiscard]] Mesh merge_pieces(std::span<const Mesh> pieces, MergeFaults& faults,
+                                std::vector<std::size_t>* order = nullptr);
 
 }  // namespace driftmesh

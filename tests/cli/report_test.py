@@ -168,6 +168,12 @@ class Frames(Cli):
         self.assertEqual(self.frames(page), [("0", 0, (0,) * 4), ("0.25", 0, (1,) * 4)])
         self.refuse("report", "u.pvd", "-o", "u1.vtu", says=["u1.vtu", ".html"])
 
+    def test_pieces_are_one_frame(self):
+        self.write("u_0.vtu", frame({"global_number": [0, 1, 2, 3]}, {"u": [5, 6]}))
+        self.write("u.pvtu", '<VTKFile type="PUnstructuredGrid"><PUnstructuredGrid><Piece Source="u_0.vtu"/></PUnstructuredGrid></VTKFile>')
+        page = self.page("u.pvtu", says="1 frame")
+        self.assertEqual((self.about(page)["at"], self.frames(page)), ("triangles", [("", 0, (5, 6))]))
+
     def test_runs_and_a_mesh_can_be_beside_frames(self):
         self.write("square.poly", SQUARE)
         self.succeed("mesh", "square.poly", "-o", "square.vtu", "--json", "square.json")

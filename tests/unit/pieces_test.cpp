@@ -62,6 +62,23 @@ void write_two(const std::string& path) {
 
 }  // namespace
 
+TEST_CASE("data at triangles of pieces come in the order of the triangles") {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path() / "mesh.pvtu").string();
+  Mesh left = left_square(), right = right_square();
+  left.subdomains = {0, 2, 0};
+  right.subdomains = {1, 1, 0};
+  write_mesh(left, {{"depth", {1, 2, 3}}, {"own", {7, 7, 7}}}, pvtu_piece_path(path, 0), {});
+  write_mesh(right, {{"depth", {4, 5, 6}}}, pvtu_piece_path(path, 1), {});
+  write_pvtu(path, 2, arrays_of(left));
+  TriangleData data;
+  const Mesh mesh = read_mesh(path, {}, data);
+  CHECK(mesh.subdomains == std::vector<std::int32_t>{0, 0, 0, 1, 1, 2});
+  CHECK(data == TriangleData{{"depth", {1, 3, 6, 4, 5, 2}}});
+  CHECK(mesh.triangles == read_mesh(path).triangles);
+  CHECK(mesh.triangles[5] == std::array<std::int32_t, 3>{0, 6, 3});
+}
+
 TEST_CASE("two pieces that fit are one mesh") {
   const VerifyReport report = check({left_square(), right_square()});
   CHECK(report.accepted());
