@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <set>
 #include <utility>
 
 #include "app/mesh_input.hpp"
@@ -75,36 +76,33 @@ struct Data {
     return found == at_points.end() ? nullptr : &found->field.values;
   }
 
-  [[nodiscard]] std::vector<std::string> names() const {
-    std::vector<std::string> all;
-    for (const auto& [name, field] : at_points) all.push_back(name);
-    for (const auto& [name, values] : at_triangles) all.push_back(name);
-    std::ranges::sort(all);
-    const auto copies = std::ranges::unique(all);
-    all.erase(copies.begin(), copies.end());
+  [[nodiscard]] std::set<std::string> names() const {
+    std::set<std::string> all;
+    for (const auto& [name, field] : at_points) all.insert(name);
+    for (const auto& [name, values] : at_triangles) all.insert(name);
     return all;
   }
 };
 
 /// "'u', 'v'"
-std::string list_of(const std::vector<std::string>& names) {
+std::string list_of(const std::set<std::string>& names) {
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "'" : ", '") + name + "'";
   return list;
 }
 
 /// The field that is meant.
-std::string chosen(const std::string& wanted, Data& data, const std::string& path) {
-  const std::vector<std::string> names = data.names();
+std::string chosen(const std::string& wanted, const Data& data, const std::string& path) {
+  const std::set<std::string> names = data.names();
   if (names.empty())
     throw InputError({path, 0}, "has no data at points or triangles", "name meshes with the field that is to be shown");
   if (!wanted.empty()) {
-    if (std::ranges::find(names, wanted) == names.end())
+    if (!names.contains(wanted))
       throw InputError({path, 0}, "has no field '" + wanted + "'", "it has " + list_of(names));
     return wanted;
   }
   if (names.size() > 1) throw InputError({path, 0}, "has the fields " + list_of(names), "choose one with --field");
-  return names.front();
+  return *names.begin();
 }
 
 std::string at(bool points) {

@@ -38,7 +38,8 @@ std::vector<PvdMesh> read_pvd(const std::string& path, const ReadOptions& option
   std::vector<PvdMesh> meshes;
   bool is_pvd = false, is_whole = false;
   for (XmlTag tag; scanner.next(tag);) {
-    if (tag.name == "VTKFile") (tag.opens ? is_pvd : is_whole) = !tag.opens || tag.attribute("type") == "Collection";
+    if (tag.name == "VTKFile" && tag.opens) is_pvd = tag.attribute("type") == "Collection";
+    if (tag.name == "VTKFile" && !tag.opens) is_whole = true;
     if (tag.opens && tag.name == "DataSet" && tag.parents == Path{"VTKFile", "Collection"})
       meshes.push_back(mesh_of(tag, path, options));
   }
