@@ -19,56 +19,62 @@ using Weights = std::array<double, 3>;
   return signed_area(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
 }
 
-/// Points as combinations of the corners of a triangle, not only those inside.
-class WeightsIn {
- public:
-  WeightsIn(const Triangulation& mesh, TriangleId t)
-      : a_(mesh.corner(t, 0)), b_(mesh.corner(t, 1)), c_(mesh.corner(t, 2)), all_(rounded_cross(a_, b_, c_)) {}
-  [[nodiscard]] Weights at(const Point& p) const {
-    const double at_b = rounded_cross(c_, a_, p) / all_, at_c = rounded_cross(a_, b_, p) / all_;
-    return {1 - at_b - at_c, at_b, at_c};
-  }
-
- private:
-  const Point &a_, &b_, &c_;
-  double all_;
-};
-
 /// What an overlap adds to integrals over the new triangle.
 class Share {
  public:
   Share(const Overlap& overlap, std::span<const Point> polygon, const Lineage::Change& change, double correction)
-      : size_(polygon.size()), in_old_(), in_new_(), areas_() {
-    const WeightsIn old_triangle(change.old_mesh, overlap.old_triangle);
-    const WeightsIn new_triangle(change.new_mesh, overlap.new_triangle);
-    for (std::size_t i = 0; i < size_; ++i) {
-      in_old_[i] = old_triangle.at(polygon[i]);
-      in_new_[i] = new_triangle.at(polygon[i]);
-      if (i >= 2) areas_[i] = correction * signed_area(polygon[0], polygon[i - 1], polygon[i]);
-    }
+      : in_old_(change.old_mesh, overlap.old_triangle, polygon[0]),
+        in_new_(change.new_mesh, overlap.new_triangle, polygon[0]) {
+    for (std::size_t i = 2; i < polygon.size(); ++i) add_triangle(polygon[i - 1], polygon[i], polygon[0], correction);
   }
 
   /// The integrals of the function that is linear in the old triangle, with these values at its corners, times that of
-  /// each corner of the new one: exact in each of the triangles around the first corner of the polygon.
+  /// each corner of the new one.
   [[nodiscard]] Weights moments(const std::array<double, 3>& at_old) const {
-    std::array<double, OverlapList::kMostCorners> value{};
-    for (std::size_t i = 0; i < size_; ++i)
-      value[i] = in_old_[i][0] * at_old[0] + in_old_[i][1] * at_old[1] + in_old_[i][2] * at_old[2];
-    Weights moments{};
-    for (std::size_t i = 2; i < size_; ++i) {
-      const double all = value[0] + value[i - 1] + value[i];
-      for (std::size_t k = 0; k < 3; ++k)
-        moments[k] += areas_[i] / 12 *
-                      ((all + value[0]) * in_new_[0][k] + (all + value[i - 1]) * in_new_[i - 1][k] +
-                       (all + value[i]) * in_new_[i][k]);
+    double f = 0, fx = 0, fy = 0;  // at the origin, and how it changes
+    for (std::size_t i = 0; i < 3; ++i) {
+      f += in_old_.at[i] * at_old[i];
+      fx += in_old_.dx[i] * at_old[i];
+      fy += in_old_.dy[i] * at_old[i];
     }
+    const double all = f * area_ + fx * x_ + fy * y_;
+    const double by_x = f * x_ + fx * xx_ + fy * xy_, by_y = f * y_ + fx * xy_ + fy * yy_;
+    Weights moments{};
+    for (std::size_t k = 0; k < 3; ++k) moments[k] = in_new_.at[k] * all + in_new_.dx[k] * by_x + in_new_.dy[k] * by_y;
     return moments;
   }
 
  private:
-  std::size_t size_;
-  std::array<Weights, OverlapList::kMostCorners> in_old_, in_new_;  // the corners of the polygon
-  std::array<double, OverlapList::kMostCorners> areas_;             // those of the triangle that ends at each
+  /// The functions of the corners of a triangle, each 1 at one and 0 at the others: at a point, which is the origin of
+  /// integrals, and how they change from there.
+  struct Corners {
+    Weights at, dx, dy;
+    Corners(const Triangulation& mesh, TriangleId t, const Point& origin) {
+      const Point &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
+      const double each = 1 / rounded_cross(a, b, c);
+      dx = {0, (c.y - a.y) * each, (a.y - b.y) * each};
+      dy = {0, (a.x - c.x) * each, (b.x - a.x) * each};
+      dx[0] = -dx[1] - dx[2];
+      dy[0] = -dy[1] - dy[2];
+      at = {0, dx[1] * (origin.x - a.x) + dy[1] * (origin.y - a.y),
+            dx[2] * (origin.x - a.x) + dy[2] * (origin.y - a.y)};
+      at[0] = 1 - at[1] - at[2];
+    }
+  };
+
+  void add_triangle(const Point& p, const Point& q, const Point& origin, double correction) {
+    const double px = p.x - origin.x, py = p.y - origin.y, qx = q.x - origin.x, qy = q.y - origin.y;
+    const double twice = correction * (px * qy - py * qx);
+    area_ += twice / 2;
+    x_ += twice / 6 * (px + qx);
+    y_ += twice / 6 * (py + qy);
+    xx_ += twice / 12 * (px * px + px * qx + qx * qx);
+    xy_ += twice / 24 * (2 * px * py + px * qy + qx * py + 2 * qx * qy);
+    yy_ += twice / 12 * (py * py + py * qy + qy * qy);
+  }
+
+  Corners in_old_, in_new_;
+  double area_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0, yy_ = 0;  // integrals of these over the overlap
 };
 
 /// What the new triangles of a subdomain overlap of those that are gone: all at once, or some at a time where there are

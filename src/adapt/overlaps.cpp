@@ -11,39 +11,49 @@
 #include "geometry/triangle_geometry.hpp"
 
 namespace driftmesh::adapt {
-namespace {
 
+/// A side of a polygon that is on no edge of the old triangle.
+constexpr int kOfNew = -1;
+
+/// What a new triangle has in common with an old one.
 class CommonPolygon {
  public:
   [[nodiscard]] const Point* begin() const { return corners_.data(); }
   [[nodiscard]] const Point* end() const { return corners_.data() + size_; }
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] const Point& operator[](std::size_t i) const { return corners_[i]; }
+  /// The edge of the old triangle on which the side from corner i to the next one is.
+  [[nodiscard]] int edge_at(std::size_t i) const { return edge_[i]; }
+  [[nodiscard]] std::size_t after(std::size_t i) const { return i + 1 < size_ ? i + 1 : 0; }
   void clear() { size_ = 0; }
-  void push_back(const Point& p) {
+  void push_back(const Point& p, int edge) {
     DM_ASSERT(size_ < corners_.size());
-    corners_[size_++] = p;
+    corners_[size_] = p;
+    edge_[size_++] = edge;
   }
 
  private:
   std::array<Point, OverlapList::kMostCorners> corners_;
+  std::array<int, OverlapList::kMostCorners> edge_;
   std::size_t size_ = 0;
 };
 
-/// Keeps what is to the left of the line from a to b (Sutherland and Hodgman).
-void cut_off(CommonPolygon& polygon, const Point& a, const Point& b) {
+namespace {
+
+/// Keeps what is to the left of an edge from a to b (Sutherland and Hodgman).
+void cut_off(const CommonPolygon& polygon, const Point& a, const Point& b, int edge, CommonPolygon& kept) {
   std::array<double, OverlapList::kMostCorners> beside;
   for (std::size_t i = 0; i < polygon.size(); ++i) beside[i] = rounded_cross(a, b, polygon[i]);
-  CommonPolygon kept;
+  kept.clear();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const std::size_t j = i + 1 < polygon.size() ? i + 1 : 0;
+    const std::size_t j = polygon.after(i);
     const Point &p = polygon[i], &q = polygon[j];
-    if (beside[i] >= 0) kept.push_back(p);
-    if ((beside[i] >= 0) == (beside[j] >= 0)) continue;
+    const bool from_left = beside[i] >= 0;
+    if (from_left) kept.push_back(p, polygon.edge_at(i));
+    if (from_left == (beside[j] >= 0)) continue;
     const double t = beside[i] / (beside[i] - beside[j]);
-    kept.push_back({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)});
+    kept.push_back({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)}, from_left ? edge : polygon.edge_at(i));
   }
-  polygon = kept;
 }
 
 double area_of(const CommonPolygon& polygon) {
@@ -59,7 +69,7 @@ class OverlapFinder::Search {
  public:
   explicit Search(const Triangulation& mesh) : mesh_(mesh), locator_(mesh), seen_(mesh.triangles.size(), 0) {}
 
-  /// From the triangle at the centroid on, across the edges beyond which it reaches. Calls visit(old triangle,
+  /// From the triangle at the centroid on, across the edges on which it overlaps both sides. Calls visit(old triangle,
   /// polygon).
   template <class Visit>
   void operator()(const CornerPoints& triangle, const Visit& visit) {
@@ -68,27 +78,37 @@ class OverlapFinder::Search {
     while (!open_.empty()) {
       const TriangleId t = open_.back();
       open_.pop_back();
-      CommonPolygon polygon;
-      for (const Point& p : triangle) polygon.push_back(p);
-      std::array<bool, 3> reaches_beyond{};
-      for (int i = 0; i < 3 && polygon.size() > 0; ++i) {
-        const Point &a = mesh_.corner(t, i), &b = mesh_.corner(t, next(i));
-        const int left = (rounded_cross(a, b, triangle[0]) >= 0) + (rounded_cross(a, b, triangle[1]) >= 0) +
-                         (rounded_cross(a, b, triangle[2]) >= 0);
-        reaches_beyond[i] = left < 3;
-        if (left == 0) polygon.clear();
-        if (left == 1 || left == 2) cut_off(polygon, a, b);
-      }
+      const CommonPolygon& polygon = common(triangle, t);
       if (polygon.size() < 3) continue;
       visit(t, polygon);
-      for (int i = 0; i < 3; ++i)
-        if (reaches_beyond[i])
-          if (const HalfEdge beyond = mesh_.across(half_edge(t, previous(i))); beyond != kNone)
-            enter(triangle_of(beyond));
+      for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const int edge = polygon.edge_at(i);
+        if (edge == kOfNew || polygon[i] == polygon[polygon.after(i)]) continue;
+        if (const HalfEdge beyond = mesh_.across(half_edge(t, edge)); beyond != kNone) enter(triangle_of(beyond));
+      }
     }
   }
 
  private:
+  /// What the triangle has in common with t; valid until the next call.
+  const CommonPolygon& common(const CornerPoints& triangle, TriangleId t) {
+    CommonPolygon* polygon = &polygons_[0];
+    CommonPolygon* other = &polygons_[1];
+    polygon->clear();
+    for (const Point& p : triangle) polygon->push_back(p, kOfNew);
+    for (int i = 0; i < 3; ++i) {
+      const Point &a = mesh_.corner(t, next(i)), &b = mesh_.corner(t, previous(i));
+      const int left = (rounded_cross(a, b, triangle[0]) >= 0) + (rounded_cross(a, b, triangle[1]) >= 0) +
+                       (rounded_cross(a, b, triangle[2]) >= 0);
+      if (left == 3) continue;
+      if (left == 0) polygon->clear();
+      if (polygon->size() == 0) break;
+      cut_off(*polygon, a, b, i, *other);
+      std::swap(polygon, other);
+    }
+    return *polygon;
+  }
+
   void enter(TriangleId t) {
     if (std::exchange(seen_[to_index(t)], search_) != search_) open_.push_back(t);
   }
@@ -98,6 +118,7 @@ class OverlapFinder::Search {
   std::vector<std::uint32_t> seen_;  // the last search that came to each triangle
   std::uint32_t search_ = 0;
   std::vector<TriangleId> open_;
+  std::array<CommonPolygon, 2> polygons_;
 };
 
 OverlapFinder::OverlapFinder(const Triangulation& old_mesh, const Triangulation& new_mesh,

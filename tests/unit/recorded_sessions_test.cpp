@@ -204,10 +204,10 @@ std::uint64_t digest_on_ranks(std::uint64_t seed, AdaptReport& sums) {
 }
 
 constexpr std::array<std::uint64_t, 16> kRecordedSessions{
-    0xd08354dfdc40b5b4, 0xaf4f1455979570a4, 0xe6bc30e82a407d2f, 0x36b0f45a4034e523,
-    0xfe6f5a8e3e2eec39, 0xabaa8ee3fc2ae601, 0x8b4e8f5ebfcc85e3, 0xd8f15a523dc72e28,
-    0x4801aa618d163b27, 0xcc5ea4995b87ebb3, 0x88f00b0a272037af, 0xed219045e406e30e,
-    0x813f83a8e84ba169, 0x25c0a61d8a148961, 0x6346c3d8a00b1b5a, 0x352752beb2cef18d};
+    0xcefaf90970b4ff40, 0xf55f97611cfe7d79, 0x7a6ecc240f0a018b, 0x8a8042169e352a0a,
+    0xeb17b7b2f8fdaac9, 0xbe301393a1475ff7, 0xa2bd0b302c856f60, 0x4c991671ae59c2a1,
+    0xbd5a81e4661dd26d, 0x1621b31b66dcd589, 0x7c347b1eca6d9fb4, 0x4b92a4a793ec1da8,
+    0x1518aa82c6eb808d, 0x5fecb8a8406366aa, 0x50b64a8b1bc32e60, 0x216591f985bba092};
 
 }  // namespace
 
