@@ -4,10 +4,10 @@ with a field at points that is carried along. Each generation is checked and com
 prints a table in Markdown (docs/results/adaptive.md). Processor time on one thread. Needs the Python package on PYTHONPATH. With --ranks,
 instead: how even the load of a solver is after each generation on ranks, and what moves for that. With --peer:
 generations of which all is made anew, beside FreeFEM's adaptmesh. With --save: how fast a session is written, beside
-dd. With --memory: how much a generation takes at its worst moment.
+dd. With --memory: how much a generation takes at its worst moment. With --files: driftmesh adapt of a whole mesh.
 
 usage: adaptive.py [--generations N] [--every N] [--length L]... [--program DRIFTMESH] [--update]
-                   [--peer | --save | --memory | --ranks N... | --simulator PROGRAM]
+                   [--peer | --save | --memory | --files | --ranks N... | --simulator PROGRAM]
 """
 
 import argparse
@@ -16,6 +16,7 @@ import json
 import os
 import pathlib
 import re
+import resource
 import shutil
 import statistics
 import subprocess
@@ -440,6 +441,39 @@ def at_worst(options):
     return table
 
 
+def run_program(options, folder, *words):
+    """Seconds by the clock and of processor time, and what it said."""
+    before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
+    said = subprocess.run([options.program, *map(str, words)], cwd=folder, check=True, capture_output=True, text=True).stdout
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return time.perf_counter() - start, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, said
+
+
+def in_files(options):
+    """A mesh in a file that is made anew as a whole."""
+    table = Table("adaptive-files", "A mesh in a file, all made anew",
+                  ["triangles before", "after", "threads", "seconds", "us for each", "mesh: seconds", "us for each"],
+                  "`driftmesh adapt` of a mesh of `generate bay` with triangles of one area, to lengths of 30 at most, and `driftmesh mesh` "
+                  "of as many triangles of one area: seconds by the clock, and processor time of the whole process for each triangle made, "
+                  f"with reading and writing .vtu. Medians of {options.repetitions}.")
+    with tempfile.TemporaryDirectory(dir=options.folder) as folder:
+        run_program(options, folder, "generate", "bay", "-o", "bay.poly")
+        run_program(options, folder, "mesh", "bay.poly", "--area", 600, "-o", "old.vtu")
+        for threads in 1, 2:
+            adapts, meshes = [], []
+            for _ in range(options.repetitions):
+                adapts.append(run_program(options, folder, "adapt", "old.vtu", "--max-length", 30, "--threshold", 1,
+                                          "--threads", threads, "-o", "new.vtu"))
+                before, after = map(int, re.search(r"(\d+) before, (\d+) now", adapts[-1][2]).groups())
+                meshes.append(run_program(options, folder, "mesh", "bay.poly", "--triangles", after, "--threads", threads, "-o", "mesh.vtu"))
+            row = [before, after, threads]
+            for runs in adapts, meshes:
+                row += [f"{statistics.median(run[0] for run in runs):.1f}",
+                        f"{statistics.median(run[1] for run in runs) / after * 1e6:.2f}"]
+            table.add(*row)
+    return table
+
+
 def simulated(options):
     table = Table("adaptive-simulated", f"512 simulated ranks, {options.generations} generations",
                   ["generations", "triangles", "placing", "efficiency", "largest over mean", "triangles moved", "largest subdomain"],
@@ -475,6 +509,7 @@ def main():
     suites.add_argument("--peer", action="store_true", help="compare with FreeFEM's adaptmesh instead")
     suites.add_argument("--save", action="store_true", help="compare saving with dd instead")
     suites.add_argument("--memory", action="store_true", help="measure memory instead")
+    suites.add_argument("--files", action="store_true", help="measure driftmesh adapt instead")
     suites.add_argument("--ranks", type=int, nargs="+", metavar="N", help="on so many ranks instead")
     suites.add_argument("--simulator", metavar="PROGRAM",
                         help="driftmesh_bench_adaptive_ranks: on simulated ranks instead")
@@ -490,12 +525,12 @@ def main():
     results.add_option(parser)
     options = parser.parse_args()
     global driftmesh, np  # only to measure: --help does without
-    if not options.simulator:
+    if not options.simulator and not options.files:
         import driftmesh
         import numpy as np
     if options.worker:
         return work(options)
-    suite = (beside_freefem if options.peer else beside_dd if options.save else at_worst if options.memory
+    suite = (beside_freefem if options.peer else beside_dd if options.save else at_worst if options.memory else in_files if options.files
              else on_ranks if options.ranks else simulated if options.simulator else measured)
     results.show("bench/adaptive.py", map(suite, [options]), options)
 

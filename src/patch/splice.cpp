@@ -216,10 +216,11 @@ class Splicing {
 
   /// Edges between subdomains need not be Delaunay. What is made anew is one of its own, or several.
   void begin_subdomains() {
-    const bool all = std::ranges::find(extent_.taken, false) == extent_.taken.end();
-    if (all && part_.triangle.size() == mesh_.triangles.size()) mesh_.subdomains.clear();
-    if (!mesh_.subdomains.empty()) own_subdomain_ = 1 + *std::ranges::max_element(mesh_.subdomains);
+    const bool all = part_.triangle.size() == mesh_.triangles.size() &&
+                     std::ranges::find(extent_.taken, false) == extent_.taken.end();
+    if (all) mesh_.subdomains.clear();
     if (mesh_.subdomains.empty() && !made_.mesh.subdomains.empty()) mesh_.subdomains.resize(mesh_.triangles.size());
+    if (!all && !mesh_.subdomains.empty()) own_subdomain_ = 1 + *std::ranges::max_element(mesh_.subdomains);
   }
 
   void number_triangles() {

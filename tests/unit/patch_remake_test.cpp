@@ -210,3 +210,28 @@ TEST_CASE("a side that bends by rounding at each point, and by more in all, stay
   CHECK(fine.mesh.triangles.size() > before.triangles.size());
   CHECK(whole_area(fine.mesh) == doctest::Approx(81));
 }
+
+TEST_CASE("what is made anew in subdomains beside parts that stay has subdomains of its own") {
+  Mesh mesh = large_grid();
+  const auto points = static_cast<std::int32_t>(mesh.points.size());
+  const std::size_t triangles = mesh.triangles.size();
+  for (const Point& p : unit_squares(3, 3).points) mesh.points.push_back({p.x + 20, p.y});
+  for (const auto& [a, b, c] : unit_squares(3, 3).triangles)
+    mesh.triangles.push_back({a + points, b + points, c + points});
+  for (const bool has_some : {false, true}) {
+    if (has_some) mesh.subdomains.assign(mesh.triangles.size(), 4);
+    patch::Order order{.inside = std::vector<bool>(mesh.triangles.size(), false)};
+    std::fill_n(order.inside.begin(), triangles, true);
+    order.lengths.assign(mesh.points.size(), 0.4);
+    order.cut_from = 0;
+    const patch::Remade after = patch::remake(mesh, {}, std::move(order));
+    REQUIRE(after.mesh.subdomains.size() == after.mesh.triangles.size());
+    const std::int32_t other = has_some ? 4 : 0;
+    std::int32_t most = 0;
+    for (std::size_t t = 0; t < after.mesh.triangles.size(); ++t) {
+      CHECK((after.mesh.subdomains[t] == other) == (after.old_triangles[t] >= 0));
+      most = std::max(most, after.mesh.subdomains[t]);
+    }
+    CHECK(most > other + 10);
+  }
+}
