@@ -259,9 +259,11 @@ Content content_of(const SubdomainView& subdomain) {
   return subdomain.dormant != nullptr ? Content::kDormant : Content::kNotStarted;
 }
 
-std::size_t mesh_bytes(const Triangulation& mesh) {
-  return mesh.triangles.size() * sizeof(Triangle) + mesh.points.size() * (sizeof(Point) + sizeof(VertexOrigin)) +
-         mesh.region.size() * sizeof(std::uint16_t) + mesh.subsegments.size() * sizeof(Subsegment);
+std::size_t body_bytes(const SubdomainView::Body& body) {
+  const Triangulation& mesh = body.part.mesh;
+  return body.refiner.size.size() * sizeof(double) + mesh.triangles.size() * sizeof(Triangle) +
+         mesh.points.size() * (sizeof(Point) + sizeof(VertexOrigin)) + mesh.region.size() * sizeof(std::uint16_t) +
+         mesh.subsegments.size() * sizeof(Subsegment);
 }
 
 void write(const SubdomainView& subdomain, SealedBytes& bytes) {
@@ -283,7 +285,7 @@ void write(const SubdomainView& subdomain, SealedBytes& bytes) {
 Bytes pack(const SubdomainView& subdomain, std::size_t room_behind) {
   constexpr std::size_t kSmallArrays = 4096;
   SealedBytes bytes(kSmallArrays + room_behind +
-                    (subdomain.body                 ? mesh_bytes(subdomain.body->part.mesh)
+                    (subdomain.body                 ? body_bytes(*subdomain.body)
                      : subdomain.dormant != nullptr ? subdomain.dormant->mesh.bytes()
                                                     : 0));
   write(subdomain, bytes);

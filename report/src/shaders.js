@@ -19,7 +19,7 @@ uniform int pass;           // 0 colors, 1 numbers of triangles as colors, 2 one
 export const triangleVertices = `${header}${scale}
 uniform sampler2D points;
 uniform usampler2D triangles;
-uniform usampler2D numbers; // of the triangles or points, by which they may be colored
+uniform usampler2D numbers; // by which triangles or points may be colored
 uniform usampler2D lookup;  // what stands for these numbers, if there is more than one
 uniform vec4 view;          // scale and offset to clip space
 uniform bool atPoints;      // what numbers are of

@@ -1,7 +1,5 @@
 #include "adapt/interpolate.hpp"
 
-#include "adapt/interpolated.hpp"
-
 namespace driftmesh::adapt {
 
 std::vector<double> interpolated_at_points(const Lineage& lineage, const std::vector<double>& old,

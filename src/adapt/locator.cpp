@@ -40,18 +40,23 @@ Locator::Locator(const Triangulation& mesh) : mesh_(mesh) {
   last_ = TriangleId(alive - mesh.triangles.begin());
 }
 
+/// The stop of a walk that ends there.
+Locator::Stop Locator::seen_from(TriangleId t, const Point& p) const {
+  Stop stop{t};
+  const auto& v = mesh_.triangles[t].vertex;
+  for (int i = 0; i < 3; ++i) stop.side[i] = orient2d(mesh_.points[v[next(i)]], mesh_.points[v[previous(i)]], p);
+  stop.least = static_cast<int>(std::ranges::min_element(stop.side) - stop.side.begin());
+  return stop;
+}
+
 /// Across the edge that separates the triangle most from the point, until there is none, or nothing beyond it.
 Locator::Stop Locator::walk(TriangleId start, const Point& p, int most_steps) const {
-  Stop stop{start};
   for (int step = 0;; ++step) {
-    const Triangle& t = mesh_.triangles[stop.triangle];
-    for (int i = 0; i < 3; ++i)
-      stop.side[i] = orient2d(mesh_.points[t.vertex[next(i)]], mesh_.points[t.vertex[previous(i)]], p);
-    stop.least = static_cast<int>(std::ranges::min_element(stop.side) - stop.side.begin());
+    const Stop stop = seen_from(start, p);
     if (stop.inside() || step == most_steps) return stop;
     const HalfEdge beyond = mesh_.across(half_edge(stop.triangle, stop.least));
     if (beyond == kNone) return stop;
-    stop.triangle = triangle_of(beyond);
+    start = triangle_of(beyond);
   }
 }
 
@@ -116,9 +121,7 @@ void Locator::make_rim() const {
       const HalfEdge edge = half_edge(t, i);
       if (mesh_.across(edge) != kNone) continue;
       rim_.push_back(edge);
-      boxes.emplace_back();
-      boxes.back().extend(mesh_.points[mesh_.edge_start(edge)]);
-      boxes.back().extend(mesh_.points[mesh_.edge_end(edge)]);
+      boxes.push_back(Box::of(std::array{mesh_.points[mesh_.edge_start(edge)], mesh_.points[mesh_.edge_end(edge)]}));
     }
   }
   rim_tree_ = BoxTree(boxes);
@@ -126,9 +129,7 @@ void Locator::make_rim() const {
 
 /// The stop of a point outside that is nearest to this edge.
 Locator::Stop Locator::beyond_edge(HalfEdge edge, const Point& p) const {
-  Stop stop{triangle_of(edge)};
-  for (int i = 0; i < 3; ++i)
-    stop.side[i] = orient2d(mesh_.corner(stop.triangle, next(i)), mesh_.corner(stop.triangle, previous(i)), p);
+  Stop stop = seen_from(triangle_of(edge), p);
   stop.least = index_of(edge);
   stop.side[stop.least] = std::min(stop.side[stop.least], -0.0);
   const Point &a = mesh_.points[mesh_.edge_start(edge)], &b = mesh_.points[mesh_.edge_end(edge)];
@@ -171,20 +172,19 @@ std::optional<Locator::Stop> Locator::search_from_rim(const Point& p) const {
 /// Among all triangles: one that contains the point, or else the one whose boundary edge is nearest.
 Locator::Stop Locator::search_all(const Point& p) const {
   if (!all_) index_all();
-  Stop stop{in_all_[to_index(all_->locate(p).triangle)]};
-  const TriangleId t = stop.triangle;
-  for (int i = 0; i < 3; ++i) stop.side[i] = orient2d(mesh_.corner(t, next(i)), mesh_.corner(t, previous(i)), p);
-  stop.least = static_cast<int>(std::ranges::min_element(stop.side) - stop.side.begin());
+  const TriangleId t = in_all_[to_index(all_->locate(p).triangle)];
+  const Stop stop = seen_from(t, p);
   if (stop.inside()) return stop;
+  int nearest = stop.least;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     if (mesh_.across(half_edge(t, i)) != kNone) continue;
     const double distance = squared_distance_to_segment(p, mesh_.corner(t, next(i)), mesh_.corner(t, previous(i)));
     if (distance >= least) continue;
     least = distance;
-    stop.least = i;
+    nearest = i;
   }
-  return beyond_edge(half_edge(t, stop.least), p);
+  return beyond_edge(half_edge(t, nearest), p);
 }
 
 Locator::Place Locator::place_at(const Stop& stop, const Point& p) const {

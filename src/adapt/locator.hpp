@@ -35,6 +35,7 @@ class Locator {
   static constexpr int kNoCorner = -1;
   struct Stop;
 
+  [[nodiscard]] Stop seen_from(TriangleId t, const Point& p) const;
   [[nodiscard]] Stop walk(TriangleId start, const Point& p, int most_steps) const;
   [[nodiscard]] int most_steps() const;
   [[nodiscard]] bool is_settled(const Stop& stop, const Point& p) const;

@@ -11,23 +11,20 @@ constexpr std::size_t kAtOnce = 500'000;  // overlaps: some fifty megabytes
 
 }  // namespace
 
-Overlaps::Overlaps(const Lineage::Change& change, OverlapList room)
-    : found(std::move(room)), change_(change), stays_(change.old_mesh.triangles.size(), false) {
+Overlaps::Overlaps(const Lineage::Change& change, OverlapList room) : found(std::move(room)) {
   found.overlaps.clear();
   if (change.is_the_same) return;
+  stays_.assign(change.old_mesh.triangles.size(), false);
   for (const TriangleId from : change.same)
     if (from != kNone) stays_[from] = true;
   correction.assign(change.old_mesh.triangles.size(), 0);
-  OverlapFinder finder(change.old_mesh, change.new_mesh, is_new());
+  const auto is_new = [&](TriangleId t) { return change.same[t] == kNone; };
+  OverlapFinder finder(change.old_mesh, change.new_mesh, is_new);
   for (; find(finder); ++left_)
     for (const Overlap& o : found.overlaps) correction[o.old_triangle] += o.area;
-  if (left_ > 1) again_.emplace(change.old_mesh, change.new_mesh, is_new());
+  if (left_ > 1) again_.emplace(change.old_mesh, change.new_mesh, is_new);
   for (const TriangleId t : ids_of(change.old_mesh.triangles))
     if (correction[t] > 0) correction[t] = area_of(change.old_mesh, t) / correction[t];
-}
-
-std::function<bool(TriangleId)> Overlaps::is_new() const {
-  return [this](TriangleId t) { return change_.same[t] == kNone; };
 }
 
 bool Overlaps::find(OverlapFinder& finder) {

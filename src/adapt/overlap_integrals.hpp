@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <span>
 
@@ -92,10 +91,8 @@ class Overlaps {
       correction{};  ///< an old triangle's area over the sum of its overlaps: 1 but for rounding
 
  private:
-  [[nodiscard]] std::function<bool(TriangleId)> is_new() const;
   bool find(OverlapFinder& finder);
 
-  const Lineage::Change& change_;
   IdVector<TriangleId, bool> stays_;  // old triangles
   std::optional<OverlapFinder> again_;
   int left_ = 0;  // times that next() will find some

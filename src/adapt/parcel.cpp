@@ -92,7 +92,6 @@ Bytes pack(SubdomainId s, const Part& part, const ValuesOnPart& values) {
   const RefinerState state = state_of(part);
   std::size_t room = kBytesBeside;
   for (const std::vector<double>& of_field : values) room += bytes_of_values(of_field.size());
-  room += state.size.size() * sizeof(double);
   Bytes bytes = driftmesh::pack(view_of(s, part, state), room);
   ByteWriter length;
   length.number(std::uint64_t{bytes.size()});

@@ -17,7 +17,7 @@ struct FrameFiles {
     std::string path;
     std::optional<double> time{};
   };
-  std::string name;  ///< of all of them: "flow_*.vtu"
+  std::string name;  ///< that they have in common: "flow_*.vtu"
   std::vector<One> files;
 };
 

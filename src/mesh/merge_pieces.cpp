@@ -184,7 +184,7 @@ class Merger {
   }
 
   void tell_order(const std::vector<Run>& runs) {
-    std::vector<std::size_t> first{0};  // of each piece
+    std::vector<std::size_t> first{0};  // that each piece has
     for (const Mesh* piece : pieces_) first.push_back(first.back() + piece->triangles.size());
     order_->clear();
     for (const Run& run : runs)

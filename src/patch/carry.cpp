@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "adapt/conserve.hpp"
-#include "adapt/interpolated.hpp"
+#include "adapt/interpolate.hpp"
 #include "adapt/lineage.hpp"
 #include "adapt/locator.hpp"
 #include "base/in_parts.hpp"

@@ -15,8 +15,7 @@ namespace {
 
 RunPlan plan_of(const Triangulation& domain, const QualityBounds& bounds, double forecast, std::size_t threads) {
   constexpr std::int32_t kAnyThreads = 2;  // no mesh depends on the number
-  DecomposeOptions cutting{.bounds = bounds, .forecast = forecast};
-  cutting.subdomains = 0;
+  const DecomposeOptions cutting{.subdomains = 0, .bounds = bounds, .forecast = forecast};
   PlanOptions options;
   options.mapping.ranks = static_cast<std::int32_t>(threads);
   if (threads > 1) options.balancing.policy = "stealing";

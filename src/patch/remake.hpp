@@ -20,7 +20,7 @@ struct Order {
   std::vector<double> lengths{};  ///< wanted, one for each point; empty: those that the triangles have
   AdaptiveOptions options{};      ///< for lengths; most_triangles: what is made anew has no more; 0: no limit
   double min_angle = defaults::kMinAngle;
-  std::int32_t threads = 1;           ///< of this process; nothing depends on their number but time
+  std::int32_t threads = 1;           ///< nothing depends on their number but time
   double cut_from = kWorthCutting;    ///< triangles for which all of a mesh is made anew in subdomains
   std::optional<Linked> linked{};     ///< the mesh, if that is there already
   const NewDomain* domain = nullptr;  ///< null: that of the mesh; else what differs is made anew, too

@@ -131,7 +131,7 @@ class Maker {
   const OldPlaces& old_;
   ConstrainedEdgeIndex index_{part_.mesh};
   std::vector<Ends> fixed_;                                        // segments that nothing has split, by old points
-  std::map<std::pair<double, double>, std::int32_t> end_markers_;  // of points of the domain that have one
+  std::map<std::pair<double, double>, std::int32_t> end_markers_;  // where points of the domain have one
   NewPart new_;
 };
 
@@ -247,10 +247,9 @@ class Splicing {
 
   /// The places of edges that are gone go to new ones, then others follow behind.
   void put_edges() {
-    std::map<std::pair<std::int32_t, std::int32_t>, const Mesh::Edge*> open;  // those that were made, by their ends
+    std::map<Ends, const Mesh::Edge*> open;  // those that were made, by their ends
     for (const Mesh::Edge& edge : made_.mesh.edges) {
-      const std::int32_t a = point(edge.a), b = point(edge.b);
-      open.emplace(std::pair(std::min(a, b), std::max(a, b)), &edge);
+      open.emplace(ends_of(point(edge.a), point(edge.b)), &edge);
     }
     std::vector<bool> taken(part_.edge.size(), false);
     for (std::size_t t = 0; t < part_.mesh.triangles.size(); ++t)
@@ -265,7 +264,7 @@ class Splicing {
       if (!taken[e]) continue;
       Mesh::Edge& edge = mesh_.edges[to_index(part_.edge[e])];
       const Mesh::Edge& own = part_.mesh.edges[e];
-      const auto found = open.find({std::min(edge.a, edge.b), std::max(edge.a, edge.b)});
+      const auto found = open.find(ends_of(edge.a, edge.b));
       // Other points may have the numbers of those that are gone.
       if (found == open.end() || gone_points_[to_index(own.a)] || gone_points_[to_index(own.b)]) {
         gone.push_back(part_.edge[e]);
@@ -277,7 +276,7 @@ class Splicing {
     std::size_t used = 0;
     for (const Mesh::Edge& edge : made_.mesh.edges) {
       const std::int32_t a = point(edge.a), b = point(edge.b);
-      if (!open.contains({std::min(a, b), std::max(a, b)})) continue;
+      if (!open.contains(ends_of(a, b))) continue;
       const Mesh::Edge made{a, b, edge.marker};
       if (used < gone.size())
         mesh_.edges[to_index(gone[used++])] = made;

@@ -36,10 +36,10 @@ class PackedFrames {
   std::string name_, field_;
   bool at_points_;
   std::size_t frames_ = 0, meshes_ = 0, triangles_ = 0;
-  std::vector<Point> points_;  // of the last mesh
+  std::vector<Point> points_;  // those of the last mesh
   std::vector<std::array<std::int32_t, 3>> corners_;
   Corners box_{};   // around all points
-  Point middle_{};  // of the first mesh
+  Point middle_{};  // that of the first mesh
   float least_ = std::numeric_limits<float>::infinity(), most_ = -least_;
   std::string packed_;
 };

@@ -60,7 +60,7 @@ TEST_CASE("overlaps that are found some at a time are those that are found at on
               std::vector(all.polygon(same).begin(), all.polygon(same).end()));
       }
       CHECK((next == all.overlaps.size() || next - first >= most));
-      if (next < all.overlaps.size())  // of the next one nothing has been taken
+      if (next < all.overlaps.size())  // nothing of the next one has been taken
         CHECK(all.overlaps[next].new_triangle != all.overlaps[next - 1].new_triangle);
     }
     CHECK(next == all.overlaps.size());
