@@ -42,19 +42,37 @@ build() { cmake --preset "$1" -Wno-dev && cmake --build --preset "$1" -j "$jobs"
 # The value of an attribute of the test suite in ctest's report.
 reported() { grep -om1 "[[:space:]]$1=\"[0-9]*\"" "$2" | tr -dc '0-9'; }
 
-# Builds the preset and adds what its tests report; a preset that does not build, or reports nothing, is one failure.
-run_preset() {
+# beside LOG COMMAND...: starts the command while tests run, which leave a core idle half of the time, and at the lowest priority, so
+# that they do not wait for it; `finish LOG` waits, and shows what it said.
+beside() {
+  local log=$1
+  shift
+  mkdir -p "$(dirname "$log")"
+  set -m  # in a group of its own, which can be ended as one
+  (renice -n 19 "$BASHPID" >/dev/null && "$@") >"$log" 2>&1 &
+  set +m
+  beside=$!
+}
+beside=
+trap '[[ -z $beside ]] || kill -- "-$beside" 2>/dev/null || true' EXIT
+
+finish() {
+  local result=0
+  wait "$beside" || result=$?
+  cat "$1"
+  return "$result"
+}
+
+# Adds what the preset's tests report; a preset that reports nothing, as when it was not built, is one failure.
+test_preset() {
   local preset=$1 report=$project_root/build/$1/ctest.xml
   shift
-  say "Building $preset"
   rm -f "$report"
-  if build "$preset"; then
-    say "Testing $preset"
-    # Twice as many as there are cores: half of the time tests wait, for ranks to start or for what happens by the clock.
-    ctest --preset "$preset" "$@" -j "$((2 * jobs))" --timeout 300 --no-tests=error --output-junit "$report" || true
-  fi
+  say "Testing $preset"
+  # Twice as many as there are cores: half of the time tests wait, for ranks to start or for what happens by the clock.
+  ctest --preset "$preset" "$@" -j "$((2 * jobs))" --timeout 300 --no-tests=error --output-junit "$report" || true
   if [[ ! -s $report ]]; then
-    one "preset $preset" false
+    one "tests of preset $preset" false
     return
   fi
   local total bad skipped
@@ -82,13 +100,21 @@ PYTHON
 if [[ $all == yes ]]; then
   scripts/setup.sh build gis report python test all readers hosts site
   one "clang-format-14, without which the formatting is not tested" command -v clang-format-14
-  run_preset ci
-  run_preset asan-ubsan --label-exclude '^(night|long)$'
+  say "Building ci"
+  one "build of preset ci" build ci
+  beside build/asan-ubsan.log build asan-ubsan
+  test_preset ci
+  say "Building asan-ubsan"
+  one "build of preset asan-ubsan" finish build/asan-ubsan.log
+  beside build/tidy.log scripts/tidy.sh ci
+  test_preset asan-ubsan --label-exclude '^(night|long)$'
   say "clang-tidy"
-  one "clang-tidy" scripts/tidy.sh ci
+  one "clang-tidy" finish build/tidy.log
 else
   scripts/setup.sh build python test
-  run_preset ci --label-exclude '^long$'
+  say "Building ci"
+  one "build of preset ci" build ci
+  test_preset ci --label-exclude '^long$'
 fi
 
 echo
