@@ -1,39 +1,15 @@
-#include "adapt/conserve.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <utility>
 
-#include "adapt/conserving_transfer.hpp"
+#include "adapt/field_transfer.hpp"
 
 namespace driftmesh::adapt {
 namespace {
-
-/// Memory that goes from one subdomain to the next: fresh pages would take as long as what is put into them. For
-/// several threads.
-class SpareRoom {
- public:
-  [[nodiscard]] OverlapList take() {
-    const std::lock_guard lock(mutex_);
-    if (rooms_.empty()) return {};
-    OverlapList room = std::move(rooms_.back());
-    rooms_.pop_back();
-    return room;
-  }
-  void give(OverlapList room) {
-    const std::lock_guard lock(mutex_);
-    rooms_.push_back(std::move(room));
-  }
-
- private:
-  std::mutex mutex_;
-  std::vector<OverlapList> rooms_;
-};
 
 struct Range {
   double least = std::numeric_limits<double>::infinity();
@@ -45,16 +21,18 @@ struct Range {
 };
 
 /// One value for each triangle, the mean of what it overlaps.
-class AtTriangles final : public ConservingTransfer {
+class AtTriangles final : public FieldTransfer {
  public:
-  AtTriangles(const Lineage& lineage, const ConservedField& field)
-      : ConservingTransfer(lineage, field), values_(lineage.new_triangles() * components()) {
-    lineage.visit_same_triangles([&](std::int32_t triangle, std::int32_t from, int /*turn*/) {
+  AtTriangles(const Lineage& lineage, const OldField& field)
+      : FieldTransfer(lineage, field), values_(lineage.new_triangles() * components()) {}
+
+  void begin(const Lineage::Change& change) override {
+    visit_same_triangles(change, [&](std::int32_t triangle, std::int32_t from, int /*turn*/) {
       for (std::size_t k = 0; k < components(); ++k) values_[place(triangle, k)] = old()[place(from, k)];
     });
   }
 
-  void take(SubdomainId /*s*/, const Lineage::Change& change, const Overlaps& overlaps) override {
+  void take(const Lineage::Change& change, const Overlaps& overlaps) override {
     for (const Overlap& o : overlaps.found.overlaps)
       for (std::size_t k = 0; k < components(); ++k) {
         const double from = old()[place(change.old_number[o.old_triangle], k)];
@@ -63,9 +41,8 @@ class AtTriangles final : public ConservingTransfer {
   }
 
   void end(const Lineage::Change& change) override {
-    if (change.is_the_same) return;
     for (const TriangleId t : ids_of(change.new_number))
-      if (change.new_number[t] != kNone && change.same[t] == kNone)
+      if (change.new_number[t] != kNone && !change.stays(t))
         for (std::size_t k = 0; k < components(); ++k)
           values_[place(change.new_number[t], k)] /= area_of(change.new_mesh, t);
   }
@@ -81,18 +58,20 @@ class AtTriangles final : public ConservingTransfer {
 
 /// Three values for each triangle: the L2 projection, brought closer to its mean where it would exceed what it
 /// overlaps.
-class AtCorners final : public ConservingTransfer {
+class AtCorners final : public FieldTransfer {
  public:
-  AtCorners(const Lineage& lineage, const ConservedField& field)
-      : ConservingTransfer(lineage, field), values_(3 * lineage.new_triangles() * components()) {
-    lineage.visit_same_triangles([&](std::int32_t triangle, std::int32_t from, int turn) {
+  AtCorners(const Lineage& lineage, const OldField& field)
+      : FieldTransfer(lineage, field), values_(3 * lineage.new_triangles() * components()) {}
+
+  void begin(const Lineage::Change& change) override {
+    visit_same_triangles(change, [&](std::int32_t triangle, std::int32_t from, int turn) {
       for (int i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < components(); ++k)
           values_[place(triangle, i, k)] = old()[place(from, (i + turn) % 3, k)];
     });
   }
 
-  void take(SubdomainId /*s*/, const Lineage::Change& change, const Overlaps& overlaps) override {
+  void take(const Lineage::Change& change, const Overlaps& overlaps) override {
     const std::vector<Overlap>& list = overlaps.found.overlaps;
     for (std::size_t first = 0, end = 0; first < list.size(); first = end) {
       while (end < list.size() && list[end].new_triangle == list[first].new_triangle) ++end;
@@ -138,36 +117,14 @@ class AtCorners final : public ConservingTransfer {
   std::vector<double> values_;
 };
 
-std::unique_ptr<ConservingTransfer> transfer_of(const Lineage& lineage, const ConservedField& field) {
-  switch (field.place) {
-    case FieldPlace::kTriangles:
-      return std::make_unique<AtTriangles>(lineage, field);
-    case FieldPlace::kCorners:
-      return std::make_unique<AtCorners>(lineage, field);
-    case FieldPlace::kPoints:
-      break;
-  }
-  return conserving_at_points(lineage, field);
-}
-
 }  // namespace
 
-std::vector<std::vector<double>> conserved(const Lineage& lineage, std::span<const ConservedField> fields) {
-  std::vector<std::unique_ptr<ConservingTransfer>> transfers;
-  for (const ConservedField& field : fields) transfers.push_back(transfer_of(lineage, field));
-  SpareRoom spare;
-  if (!fields.empty())
-    lineage.visit_parts([&](SubdomainId s, const Lineage::Change& change) {
-      for (const auto& transfer : transfers) transfer->begin(s, change);
-      Overlaps overlaps(change, spare.take());
-      while (overlaps.next())
-        for (const auto& transfer : transfers) transfer->take(s, change, overlaps);
-      for (const auto& transfer : transfers) transfer->end(change);
-      spare.give(std::move(overlaps.found));
-    });
-  std::vector<std::vector<double>> values;
-  for (const auto& transfer : transfers) values.push_back(transfer->values());
-  return values;
+std::unique_ptr<FieldTransfer> conserving_at_triangles(const Lineage& lineage, const OldField& field) {
+  return std::make_unique<AtTriangles>(lineage, field);
+}
+
+std::unique_ptr<FieldTransfer> conserving_at_corners(const Lineage& lineage, const OldField& field) {
+  return std::make_unique<AtCorners>(lineage, field);
 }
 
 }  // namespace driftmesh::adapt

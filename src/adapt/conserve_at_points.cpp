@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "adapt/conserving_transfer.hpp"
+#include "adapt/field_transfer.hpp"
 #include "adapt/interpolate.hpp"
 #include "adapt/sums_at_points.hpp"
 #include "base/bytes.hpp"
@@ -16,22 +16,26 @@ namespace {
 
 /// Values at points: interpolation, brought closer to the lumped projection (Farrell and others 2009) just as far as
 /// conserves the integral, where that moves it in the right direction.
-class AtPoints final : public ConservingTransfer {
+class AtPoints final : public FieldTransfer {
  public:
-  AtPoints(const Lineage& lineage, const ConservedField& field)
-      : ConservingTransfer(lineage, field), sums_(lineage.after().parts.size()) {}
+  AtPoints(const Lineage& lineage, const OldField& field)
+      : FieldTransfer(lineage, field),
+        between_(lineage, field),
+        sums_(lineage.after(), kMoments + field.components),
+        of_subdomain_(lineage.after().parts.size()) {}
 
-  void begin(SubdomainId s, const Lineage::Change& change) override {
-    Sums& sums = sums_[s];
+  void begin(const Lineage::Change& change) override {
+    between_.begin(change);
+    Sums& sums = of_subdomain_[change.subdomain];
     const std::size_t vertices = change.new_mesh.points.size();
     sums.moments.assign(vertices * components(), 0);
     sums.mass.assign(vertices, 0);
     sums.changed.assign(vertices, false);
-    take_triangles(s, change, sums);
+    take_triangles(change, sums);
   }
 
-  void take(SubdomainId s, const Lineage::Change& change, const Overlaps& overlaps) override {
-    std::vector<double>& moments = sums_[s].moments;
+  void take(const Lineage::Change& change, const Overlaps& overlaps) override {
+    std::vector<double>& moments = of_subdomain_[change.subdomain].moments;
     for (const Overlap& o : overlaps.found.overlaps) {
       const auto& from = change.old_mesh.triangles[o.old_triangle].vertex;
       const auto& to = change.new_mesh.triangles[o.new_triangle].vertex;
@@ -45,11 +49,21 @@ class AtPoints final : public ConservingTransfer {
     }
   }
 
+  void end(const Lineage::Change& change) override {
+    const Sums sums = std::move(of_subdomain_[change.subdomain]);
+    std::vector<double> own(width());
+    for (const VertexId v : ids_of(change.new_place)) {
+      if (change.new_place[v] == kNone) continue;
+      own[kChanged] = sums.changed[to_index(v)] ? 1 : 0;
+      own[kMass] = sums.mass[to_index(v)];
+      std::copy_n(sums.moments.begin() + to_index(v) * components(), components(), own.begin() + kMoments);
+      sums_.add(change.subdomain, change.new_place[v], own);
+    }
+  }
+
   [[nodiscard]] std::vector<double> values() override {
-    SumsAtPoints sums(lineage().after().piece, width());
-    for (const SubdomainId s : lineage().after().here) add(s, sums);
-    const std::vector<double> sum = sums.take(lineage().ranks());
-    std::vector<double> values = interpolated_at_points(lineage(), old(), components());
+    const std::vector<double> sum = sums_.take(lineage().ranks());
+    std::vector<double> values = between_.values();
     correct(sum, values);
     return values;
   }
@@ -63,18 +77,18 @@ class AtPoints final : public ConservingTransfer {
   };
 
   /// All masses, and moments with triangles that stay.
-  void take_triangles(SubdomainId s, const Lineage::Change& change, Sums& sums) const {
+  void take_triangles(const Lineage::Change& change, Sums& sums) const {
     for (const TriangleId t : ids_of(change.new_mesh.triangles)) {
       if (!change.new_mesh.triangles[t].alive()) continue;
       const double third = area_of(change.new_mesh, t) / 3;
-      const bool stays = change.is_the_same || change.same[t] != kNone;
+      const bool stays = change.stays(t);
       for (const VertexId v : change.new_mesh.triangles[t].vertex) {
         sums.mass[to_index(v)] += third;
         if (!stays) {
           sums.changed[to_index(v)] = true;
           continue;
         }
-        const std::int32_t from = lineage().old_point_of(s, v);
+        const std::int32_t from = change.old_point_of(v);
         for (std::size_t k = 0; k < components(); ++k)
           sums.moments[to_index(v) * components() + k] += third * old()[to_index(from) * components() + k];
       }
@@ -84,19 +98,6 @@ class AtPoints final : public ConservingTransfer {
   // At each point: the subdomains where it has changed, its mass, and the moment of each component.
   static constexpr std::size_t kChanged = 0, kMass = 1, kMoments = 2;
   [[nodiscard]] std::size_t width() const { return kMoments + components(); }
-
-  void add(SubdomainId s, SumsAtPoints& all) const {
-    const Sums& sums = sums_[s];
-    const IdVector<VertexId, std::int32_t>& places = lineage().after().places[s];
-    std::vector<double> own(width());
-    for (const VertexId v : ids_of(places)) {
-      if (places[v] == kNone) continue;
-      own[kChanged] = sums.changed[to_index(v)] ? 1 : 0;
-      own[kMass] = sums.mass[to_index(v)];
-      std::copy_n(sums.moments.begin() + to_index(v) * components(), components(), own.begin() + kMoments);
-      all.add(s, places[v], own);
-    }
-  }
 
   /// How far the values at the points of a subdomain, or of all, are from the lumped projection, as integrals.
   struct Steps {
@@ -162,12 +163,14 @@ class AtPoints final : public ConservingTransfer {
     }
   }
 
-  IdVector<SubdomainId, Sums> sums_;
+  Interpolation between_;
+  SumsAtPoints sums_;
+  IdVector<SubdomainId, Sums> of_subdomain_;  // between begin() and end()
 };
 
 }  // namespace
 
-std::unique_ptr<ConservingTransfer> conserving_at_points(const Lineage& lineage, const ConservedField& field) {
+std::unique_ptr<FieldTransfer> conserving_at_points(const Lineage& lineage, const OldField& field) {
   return std::make_unique<AtPoints>(lineage, field);
 }
 

@@ -35,7 +35,7 @@ class Densities {
   Densities(const Generation& present, std::span<const double> indicators, double order)
       : piece_(present.piece),
         at_points_(piece_.mesh.points.size()),
-        sums_(piece_, 2),
+        sums_(present, 2),
         of_parts_(present.parts.size()) {
     const std::vector<std::int32_t>& subdomains = piece_.mesh.subdomains;
     for (std::size_t t = 0; t < indicators.size(); ++t) {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "adapt/conserve.hpp"
-#include "adapt/interpolate.hpp"
 #include "adapt/shared_points.hpp"
 #include "driftmesh/error.hpp"
 
@@ -49,17 +47,13 @@ void take_from_owners(Fields& fields, const DistributedPiece& piece, Ranks& rank
       });
 }
 
-Fields carried(const Fields& fields, const Lineage& lineage) {
-  std::vector<ConservedField> conserving;
-  for (const auto& [name, field] : fields)
-    if (field.how == Transfer::kConserve) conserving.push_back({field.place, field.components, field.values});
-  std::vector<std::vector<double>> values = conserved(lineage, conserving);
+Fields carried(const Fields& fields, const Lineage& lineage, Stayed& stayed) {
+  std::vector<OldField> old;
+  for (const auto& [name, field] : fields) old.push_back({field.place, field.how, field.components, field.values});
+  std::vector<std::vector<double>> values = transferred(lineage, old, &stayed);
   Fields next;
-  std::size_t taken = 0;
-  for (const auto& [name, field] : fields)
-    next[name] = {field.place, field.how, field.components,
-                  field.how == Transfer::kConserve ? std::move(values[taken++])
-                                                   : interpolated_at_points(lineage, field.values, field.components)};
+  auto made = values.begin();
+  for (const auto& [name, field] : fields) next[name] = {field.place, field.how, field.components, std::move(*made++)};
   return next;
 }
 

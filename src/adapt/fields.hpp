@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "adapt/lineage.hpp"
+#include "adapt/transfer.hpp"
 #include "distributed/ranks.hpp"
 #include "driftmesh/adaptive.hpp"
 #include "driftmesh/distributed_piece.hpp"
@@ -33,7 +34,7 @@ using Fields = std::map<std::string, Field>;
 /// Gives fields at points that ranks share the values of the points' owners on all of them. Collective.
 void take_from_owners(Fields& fields, const DistributedPiece& piece, Ranks& ranks);
 
-/// The fields on the new mesh. Collective.
-[[nodiscard]] Fields carried(const Fields& fields, const Lineage& lineage);
+/// The fields on the new mesh, and what stayed of the old one. Collective.
+[[nodiscard]] Fields carried(const Fields& fields, const Lineage& lineage, Stayed& stayed);
 
 }  // namespace driftmesh::adapt

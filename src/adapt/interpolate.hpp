@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "adapt/lineage.hpp"
+#include "adapt/field_transfer.hpp"
 
 namespace driftmesh::adapt {
 
@@ -15,9 +15,17 @@ namespace driftmesh::adapt {
   return std::clamp(weight[0] * at[0] + weight[1] * at[1] + weight[2] * at[2], least, most);
 }
 
-/// Values at points, linear between them, at the points of the new mesh: `components` for each. A point that stays
-/// keeps its bits. Collective.
-[[nodiscard]] std::vector<double> interpolated_at_points(const Lineage& lineage, const std::vector<double>& old,
-                                                         std::size_t components);
+/// Values at points, linear between them. A point that stays keeps its bits.
+class Interpolation final : public FieldTransfer {
+ public:
+  Interpolation(const Lineage& lineage, const OldField& field)
+      : FieldTransfer(lineage, field), values_(lineage.new_points() * components()) {}
+
+  void begin(const Lineage::Change& change) override;
+  [[nodiscard]] std::vector<double> values() override;
+
+ private:
+  std::vector<double> values_;
+};
 
 }  // namespace driftmesh::adapt

@@ -143,9 +143,8 @@ std::optional<Joined> join_light(
   while (from.present.fields.contains(lengths)) lengths += '_';
   Fields fields = from.present.fields;
   fields[lengths].values = as_values(present, from.wanted.lengths);
-  const auto points = own_numbers(present.piece.mesh.points.size());
-  const auto triangles = own_numbers(present.piece.mesh.triangles.size());
-  const Held start{present, fields, points, triangles};
+  const Stayed all{own_numbers(present.piece.mesh.points.size()), own_numbers(present.piece.mesh.triangles.size())};
+  const Held start{present, fields, all};
 
   const IdVector<SubdomainId, Rank> holders = together(present.holders, group, asked);
   Joined made;

@@ -6,16 +6,13 @@
 #include "base/in_turns.hpp"
 
 namespace driftmesh::adapt {
+
 Lineage::Lineage(const Generation& before, const Generation& after, std::int32_t threads, Ranks& ranks)
     : before_(before),
       after_(after),
       threads_(threads),
       ranks_(ranks),
-      descents_(after.parts.size()),
       lowest_here_(after.piece.mesh.points.size(), kNoSubdomain) {
-  for_each_part([&](SubdomainId s) {
-    if (!is_the_same(s)) descents_[s] = trace(before.parts[s].mesh->mesh, after.parts[s].mesh->mesh);
-  });
   for (const SubdomainId s : after.here)
     for (const std::int32_t place : after.places[s])
       if (place != kNone && lowest_here_[to_index(place)] == kNoSubdomain) lowest_here_[to_index(place)] = s;
@@ -26,10 +23,6 @@ Lineage::Lineage(const Generation& before, const Generation& after, std::int32_t
         SubdomainId& lowest = lowest_[to_index(point)];
         lowest = std::min(lowest, reader.value<SubdomainId>());
       });
-}
-
-void Lineage::for_each_part(const std::function<void(SubdomainId)>& work) const {
-  in_turns(after_.here.size(), to_index(threads_), [&](std::size_t i) { work(after_.here[i]); });
 }
 
 void Lineage::settle_shared(std::vector<double>& values, std::size_t components) const {
@@ -48,56 +41,40 @@ void Lineage::settle_shared(std::vector<double>& values, std::size_t components)
       });
 }
 
-void Lineage::visit_points(const std::function<void(std::int32_t, const Source&)>& visit) const {
-  for_each_part([&](SubdomainId s) {
-    const IdVector<VertexId, std::int32_t>&old = before_.places[s], &places = after_.places[s];
-    for (const VertexId v : ids_of(places)) {
-      if (places[v] == kNone || lowest_here_[to_index(places[v])] != s) continue;
-      if (is_the_same(s)) {
-        visit(places[v], {{old[v], old[v], old[v]}, {1, 0, 0}, true});
-        continue;
-      }
-      const Descent::Source& from = descents_[s].sources[v];
-      visit(places[v], {{old[from.vertex[0]], old[from.vertex[1]], old[from.vertex[2]]}, from.weight, from.stays});
-    }
-  });
-}
-
-std::vector<std::int32_t> Lineage::stayed_points() const {
-  std::vector<std::int32_t> stayed(after_.piece.mesh.points.size(), -1);
-  visit_points([&](std::int32_t point, const Source& from) {
-    if (from.stays) stayed[to_index(point)] = from.point[0];
-  });
-  return stayed;
-}
-
-void Lineage::visit_parts(const std::function<void(SubdomainId, const Change&)>& visit) const {
-  for_each_part([&](SubdomainId s) {
+void Lineage::visit_parts(const std::function<void(const Change&)>& visit) const {
+  in_turns(after_.here.size(), to_index(threads_), [&](std::size_t i) {
+    const SubdomainId s = after_.here[i];
+    const bool is_the_same = before_.parts[s].mesh == after_.parts[s].mesh;
     const Triangulation &old_mesh = before_.parts[s].mesh->mesh, &new_mesh = after_.parts[s].mesh->mesh;
-    visit(s, {is_the_same(s), old_mesh, new_mesh, descents_[s].same, numbers_of_triangles(before_, s),
-              numbers_of_triangles(after_, s), before_.places[s], after_.places[s]});
+    const Descent descent = is_the_same ? Descent() : trace(old_mesh, new_mesh);
+    visit({s, is_the_same, old_mesh, new_mesh, descent, numbers_of_triangles(before_, s),
+           numbers_of_triangles(after_, s), before_.places[s], after_.places[s]});
   });
 }
 
-void Lineage::visit_same_triangles(const std::function<void(std::int32_t, std::int32_t, int)>& visit) const {
-  visit_parts([&](SubdomainId s, const Change& change) {
-    for (const TriangleId t : ids_of(change.new_number)) {
-      if (change.new_number[t] == kNone) continue;
-      const TriangleId from = change.is_the_same ? t : change.same[t];
-      if (from == kNone) continue;
-      const VertexId v = change.new_mesh.triangles[t].vertex[0];
-      const VertexId first = change.is_the_same ? v : descents_[s].sources[v].vertex[0];
-      const auto& corners = change.old_mesh.triangles[from].vertex;
-      visit(change.new_number[t], change.old_number[from], corners[0] == first ? 0 : corners[1] == first ? 1 : 2);
+void Lineage::visit_points(const Change& change, const std::function<void(std::int32_t, const Source&)>& visit) const {
+  const IdVector<VertexId, std::int32_t>&old = change.old_place, &places = change.new_place;
+  for (const VertexId v : ids_of(places)) {
+    if (places[v] == kNone || lowest_here_[to_index(places[v])] != change.subdomain) continue;
+    if (change.is_the_same) {
+      visit(places[v], {{old[v], old[v], old[v]}, {1, 0, 0}, true});
+      continue;
     }
-  });
+    const Descent::Source& from = change.descent.sources[v];
+    visit(places[v], {{old[from.vertex[0]], old[from.vertex[1]], old[from.vertex[2]]}, from.weight, from.stays});
+  }
 }
 
-std::vector<std::int32_t> Lineage::stayed_triangles() const {
-  std::vector<std::int32_t> stayed(new_triangles(), -1);
-  visit_same_triangles(
-      [&](std::int32_t triangle, std::int32_t old, int /*turn*/) { stayed[to_index(triangle)] = old; });
-  return stayed;
+void visit_same_triangles(const Lineage::Change& change,
+                          const std::function<void(std::int32_t, std::int32_t, int)>& visit) {
+  for (const TriangleId t : ids_of(change.new_number)) {
+    if (change.new_number[t] == kNone || !change.stays(t)) continue;
+    const TriangleId from = change.is_the_same ? t : change.descent.same[t];
+    const VertexId v = change.new_mesh.triangles[t].vertex[0];
+    const VertexId first = change.is_the_same ? v : change.descent.sources[v].vertex[0];
+    const auto& corners = change.old_mesh.triangles[from].vertex;
+    visit(change.new_number[t], change.old_number[from], corners[0] == first ? 0 : corners[1] == first ? 1 : 2);
+  }
 }
 
 }  // namespace driftmesh::adapt

@@ -37,11 +37,11 @@ std::vector<Parcel> swap_parcels(const Generation& generation, const Fields& fie
 void take_stayed(const Held& present, const Generation& next, SubdomainId s, Holding& to) {
   const Generation& now = present.generation;
   for (const VertexId v : ids_of(next.places[s]))
-    if (next.places[s][v] != kNone && !present.stayed_points.empty())
-      to.stayed_points[to_index(next.places[s][v])] = present.stayed_points[to_index(now.places[s][v])];
-  if (!present.stayed_triangles.empty())
-    std::copy_n(present.stayed_triangles.begin() + now.first_triangle[s], next.parts[s].mesh->mesh.live_triangles(),
-                to.stayed_triangles.begin() + next.first_triangle[s]);
+    if (next.places[s][v] != kNone && !present.stayed.points.empty())
+      to.stayed.points[to_index(next.places[s][v])] = present.stayed.points[to_index(now.places[s][v])];
+  if (!present.stayed.triangles.empty())
+    std::copy_n(present.stayed.triangles.begin() + now.first_triangle[s], next.parts[s].mesh->mesh.live_triangles(),
+                to.stayed.triangles.begin() + next.first_triangle[s]);
 }
 
 }  // namespace
@@ -53,11 +53,11 @@ Holding moved(const Held& present, const IdVector<SubdomainId, Rank>& holders,
   for (const SubdomainId s : present.generation.here)
     if (holders[s] != ranks.rank()) parts[s] = {};
   for (const Parcel& parcel : parcels) parts[parcel.id] = parcel.part;
-  Holding next{assemble(std::move(parts)), {}, {}, {}};
+  Holding next{assemble(std::move(parts)), {}, {}};
   const Mesh& mesh = next.generation.piece.mesh;
   next.fields = without_values(present.fields, next.generation.piece);
-  next.stayed_points.assign(present.stayed_points.empty() ? 0 : mesh.points.size(), -1);
-  next.stayed_triangles.assign(present.stayed_triangles.empty() ? 0 : mesh.triangles.size(), -1);
+  next.stayed.points.assign(present.stayed.points.empty() ? 0 : mesh.points.size(), -1);
+  next.stayed.triangles.assign(present.stayed.triangles.empty() ? 0 : mesh.triangles.size(), -1);
   for (const Parcel& parcel : parcels) set_values_on(next.generation, parcel.id, parcel.values, next.fields);
   for (const SubdomainId s : next.generation.here) {
     if (!present.generation.is_here(s)) continue;

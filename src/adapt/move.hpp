@@ -6,6 +6,7 @@
 
 #include "adapt/fields.hpp"
 #include "adapt/generation.hpp"
+#include "adapt/transfer.hpp"
 #include "distributed/ranks.hpp"
 #include "driftmesh/ids.hpp"
 
@@ -15,15 +16,15 @@ namespace driftmesh::adapt {
 struct Held {
   const Generation& generation;
   const Fields& fields;
-  const std::vector<std::int32_t>&stayed_points, &stayed_triangles;
+  const Stayed& stayed;
 };
 /// The same, to keep.
 struct Holding {
   Generation generation;
   Fields fields;
-  std::vector<std::int32_t> stayed_points, stayed_triangles;
+  Stayed stayed;
   operator Held() const {  // NOLINT(google-explicit-constructor): it is the same
-    return {generation, fields, stayed_points, stayed_triangles};
+    return {generation, fields, stayed};
   }
 };
 

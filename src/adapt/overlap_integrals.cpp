@@ -15,10 +15,10 @@ Overlaps::Overlaps(const Lineage::Change& change, OverlapList room) : found(std:
   found.overlaps.clear();
   if (change.is_the_same) return;
   stays_.assign(change.old_mesh.triangles.size(), false);
-  for (const TriangleId from : change.same)
+  for (const TriangleId from : change.descent.same)
     if (from != kNone) stays_[from] = true;
   correction.assign(change.old_mesh.triangles.size(), 0);
-  const auto is_new = [&](TriangleId t) { return change.same[t] == kNone; };
+  const auto is_new = [&](TriangleId t) { return !change.stays(t); };
   OverlapFinder finder(change.old_mesh, change.new_mesh, is_new);
   for (; find(finder); ++left_)
     for (const Overlap& o : found.overlaps) correction[o.old_triangle] += o.area;

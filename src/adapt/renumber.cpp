@@ -64,7 +64,7 @@ std::vector<T> reordered(const std::vector<T>& values, const std::vector<std::in
 }  // namespace
 
 Holding renumbered(const Held& present, Generation now, const IdVector<SubdomainId, Former>& former) {
-  Holding next{std::move(now), {}, {}, {}};
+  Holding next{std::move(now), {}, {}};
   const Renumbering old(present.generation, next.generation, former);
   for (const auto& [name, field] : present.fields) {
     const bool at_points = field.place == FieldPlace::kPoints;
@@ -72,8 +72,8 @@ Holding renumbered(const Held& present, Generation now, const IdVector<Subdomain
     next.fields[name] = {field.place, field.how, field.components,
                          reordered(field.values, at_points ? old.points() : old.triangles(), each)};
   }
-  next.stayed_points = reordered(present.stayed_points, old.points(), 1);
-  next.stayed_triangles = reordered(present.stayed_triangles, old.triangles(), 1);
+  next.stayed = {reordered(present.stayed.points, old.points(), 1),
+                 reordered(present.stayed.triangles, old.triangles(), 1)};
   return next;
 }
 

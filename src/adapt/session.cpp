@@ -83,8 +83,8 @@ void since(const Holding& earlier, Holding& made) {
     for (std::int32_t& number : stayed)
       if (number >= 0) number = before[to_index(number)];
   };
-  follow(made.stayed_points, earlier.stayed_points);
-  follow(made.stayed_triangles, earlier.stayed_triangles);
+  follow(made.stayed.points, earlier.stayed.points);
+  follow(made.stayed.triangles, earlier.stayed.triangles);
 }
 
 }  // namespace
@@ -194,11 +194,9 @@ IdVector<SubdomainId, Demand> Session::demands_of(const Wanted& wanted, std::int
 
 /// With the fields that the generation before has.
 Holding Session::holding(const Held& before, Generation next, std::int32_t threads, Ranks& ranks) {
-  Holding made{std::move(next), {}, {}, {}};
+  Holding made{std::move(next), {}, {}};
   const Lineage lineage(before.generation, made.generation, threads, ranks);
-  made.stayed_points = lineage.stayed_points();
-  made.stayed_triangles = lineage.stayed_triangles();
-  made.fields = carried(before.fields, lineage);
+  made.fields = carried(before.fields, lineage, made.stayed);
   return made;
 }
 
@@ -215,7 +213,7 @@ void Session::advance(const std::function<Wanted()>& want, const Means& means, c
   report.lengths = stage.seconds();
 
   stage = {};
-  const Basis before{plan_, {present_, fields_, stayed_points_, stayed_triangles_}, wanted, demands};
+  const Basis before{plan_, {present_, fields_, stayed_}, wanted, demands};
   const auto assemble_parts = [&](const Decomposition& decomposition, Parts parts) {
     return assembled(decomposition, std::move(parts), ranks);
   };
@@ -271,8 +269,7 @@ void Session::advance(const std::function<Wanted()>& want, const Means& means, c
   if (divided) set_decomposition(std::move(divided->cut.divided), descendants.whole_of);
   descendants_ = std::move(descendants);
   present_ = std::move(made.generation);
-  stayed_points_ = std::move(made.stayed_points);
-  stayed_triangles_ = std::move(made.stayed_triangles);
+  stayed_ = std::move(made.stayed);
   fields_ = std::move(made.fields);
   spent_ = {};
   report.seconds = all.seconds();

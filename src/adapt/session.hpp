@@ -59,8 +59,8 @@ class Session {
   [[nodiscard]] std::vector<std::vector<std::int32_t>> parents() const;
   [[nodiscard]] const AdaptiveOptions& options() const { return options_; }
   [[nodiscard]] const AdaptReport& report() const { return report_; }
-  [[nodiscard]] const std::vector<std::int32_t>& stayed_points() const { return stayed_points_; }
-  [[nodiscard]] const std::vector<std::int32_t>& stayed_triangles() const { return stayed_triangles_; }
+  [[nodiscard]] const std::vector<std::int32_t>& stayed_points() const { return stayed_.points; }
+  [[nodiscard]] const std::vector<std::int32_t>& stayed_triangles() const { return stayed_.triangles; }
 
   /// Makes the next generation. If anything throws, everything stays as it is.
   void adapt(std::span<const double> lengths, const Means& means, const Hooks& hooks);
@@ -111,7 +111,7 @@ class Session {
   std::int64_t number_ = 0;  // distinguishes the sessions of a process; that of rank 0
   Generation present_;
   AdaptReport report_;
-  std::vector<std::int32_t> stayed_points_, stayed_triangles_;
+  Stayed stayed_;
   Fields fields_;
   Spent spent_;  // on the present mesh
   bool keeps_old_ = false;

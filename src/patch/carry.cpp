@@ -7,10 +7,10 @@
 #include <numeric>
 #include <utility>
 
-#include "adapt/conserve.hpp"
 #include "adapt/interpolate.hpp"
 #include "adapt/lineage.hpp"
 #include "adapt/locator.hpp"
+#include "adapt/transfer.hpp"
 #include "base/in_parts.hpp"
 #include "distributed/ranks.hpp"
 #include "driftmesh/adaptive.hpp"
@@ -166,14 +166,14 @@ void carry(std::vector<adapt::Field>& fields, const Part& part, const NewPart& m
       generation_of(made.mesh, triangulation_of(made.mesh, triangle_neighbors(made.mesh)));
   OneRank alone;
   const adapt::Lineage lineage(old_part, next_part, 1, alone);
-  std::vector<adapt::ConservedField> conserving;
+  std::vector<adapt::OldField> conserving;
   std::vector<adapt::Field*> conserved;
   for (adapt::Field& field : fields)
     if (field.how == Transfer::kConserve) {
-      conserving.push_back({field.place, field.components, of_part[conserved.size()]});
+      conserving.push_back({field.place, field.how, field.components, of_part[conserved.size()]});
       conserved.push_back(&field);
     }
-  const std::vector<std::vector<double>> values = adapt::conserved(lineage, conserving);
+  const std::vector<std::vector<double>> values = adapt::transferred(lineage, conserving);
   for (std::size_t i = 0; i < conserved.size(); ++i)
     put(values[i], values_at(*conserved[i]),
         conserved[i]->place == FieldPlace::kPoints ? numbers.points : numbers.triangles, conserved[i]->values);

@@ -81,7 +81,7 @@ struct RecastCase {
       own[s] = {std::make_shared<const SubdomainMesh>(parts[s]), 100, 1.5,
                 std::make_shared<const adapt::Lengths>(std::move(lengths))};
     }
-    adapt::Holding all{adapt::assemble(coarse.decomposition, pslg, std::move(own), ranks), {}, {}, {}};
+    adapt::Holding all{adapt::assemble(coarse.decomposition, pslg, std::move(own), ranks), {}, {}};
     all.fields["points"] = {FieldPlace::kPoints, Transfer::kInterpolate, 2, {}};
     all.fields["triangles"] = {FieldPlace::kTriangles, Transfer::kConserve, 1, {}};
     all.fields["corners"] = {FieldPlace::kCorners, Transfer::kConserve, 2, {}};
@@ -92,8 +92,8 @@ struct RecastCase {
       for (std::size_t i = 0; i < count; ++i) numbers.push_back(i % 3 == 0 ? -1 : static_cast<std::int32_t>(i));
       return numbers;
     };
-    all.stayed_points = own_numbers(mesh.points.size());
-    all.stayed_triangles = own_numbers(mesh.triangles.size());
+    all.stayed.points = own_numbers(mesh.points.size());
+    all.stayed.triangles = own_numbers(mesh.triangles.size());
     return all;
   }
 };
@@ -104,12 +104,12 @@ std::size_t wrong_stays(const adapt::Holding& before, const adapt::Holding& afte
   std::size_t wrong = 0;
   const auto old_point = [&](std::int32_t v) { return old.points[static_cast<std::size_t>(v)]; };
   for (std::size_t v = 0; v < now.points.size(); ++v)
-    if (const std::int32_t from = after.stayed_points[v]; from >= 0) {
+    if (const std::int32_t from = after.stayed.points[v]; from >= 0) {
       ++stayed;
       wrong += !(old_point(from) == now.points[v]);
     }
   for (std::size_t t = 0; t < now.triangles.size(); ++t)
-    if (const std::int32_t from = after.stayed_triangles[t]; from >= 0) {
+    if (const std::int32_t from = after.stayed.triangles[t]; from >= 0) {
       ++stayed;
       for (std::size_t i = 0; i < 3; ++i)
         wrong += !(old_point(old.triangles[static_cast<std::size_t>(from)][i]) ==
@@ -122,7 +122,7 @@ std::size_t stays(const adapt::Holding& holding) {
   const auto count = [](const auto& numbers) {
     return static_cast<std::size_t>(std::ranges::count_if(numbers, [](std::int32_t n) { return n >= 0; }));
   };
-  return count(holding.stayed_points) + count(holding.stayed_triangles);
+  return count(holding.stayed.points) + count(holding.stayed.triangles);
 }
 
 /// What is wrong with what one rank has; empty: nothing.
