@@ -28,8 +28,8 @@ using LengthsOfParts = IdVector<SubdomainId, Lengths>;
 /// A mesh in parts, each on one rank, and as one piece on each rank.
 struct Generation {
   Parts parts;
-  DistributedPiece piece;
-  std::vector<SubdomainId> here;        ///< those on this rank, ascending
+  DistributedPiece piece;         ///< two fifths of the memory; what another generation is made from is in the rest
+  std::vector<SubdomainId> here;  ///< those on this rank, ascending
   IdVector<SubdomainId, Rank> holders;  ///< the rank of each
   // Of parts that are here:
   IdVector<SubdomainId, IdVector<VertexId, std::int32_t>> places;  ///< see PiecePlaces

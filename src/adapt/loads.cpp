@@ -36,8 +36,8 @@ struct ToldByRank {
 };
 
 std::vector<ToldByRank> told_by_all(const Generation& before, const Spent& spent, Ranks& ranks) {
-  ToldByRank own{spent.on_rank.value_or(-1), static_cast<double>(before.piece.mesh.triangles.size()),
-                 spent.on_parts ? 1 : 0};
+  ToldByRank own{spent.on_rank.value_or(-1), 0, spent.on_parts ? 1 : 0};
+  for (const SubdomainId s : before.here) own.triangles += triangles_of(before.parts[s]);
   ByteWriter writer;
   writer.value(own);
   std::vector<ToldByRank> all;

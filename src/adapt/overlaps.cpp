@@ -144,6 +144,9 @@ bool OverlapFinder::find(std::size_t most, OverlapList& found) {
   if (!next_triangle()) return false;
   found.overlaps.clear();
   found.corners.clear();
+  // As much as may come, of which only what comes takes memory: growing would take three times as much.
+  found.overlaps.reserve(most);
+  found.corners.reserve(5 * most);
   while (found.overlaps.size() < most && next_triangle()) {
     const TriangleId t = open_.back();
     open_.pop_back();

@@ -87,6 +87,19 @@ void since(const Holding& earlier, Holding& made) {
   follow(made.stayed.triangles, earlier.stayed.triangles);
 }
 
+/// Times of stages one after the other.
+class Stages {
+ public:
+  /// Adds the time of the stage to `seconds`, and begins the next one.
+  void end(double& seconds) {
+    seconds += watch_.seconds();
+    watch_ = {};
+  }
+
+ private:
+  Stopwatch watch_;
+};
+
 }  // namespace
 
 Session::Session(Start start, const AdaptiveOptions& options, std::function<void(Mesh&)> finish, const Means& means)
@@ -192,27 +205,18 @@ IdVector<SubdomainId, Demand> Session::demands_of(const Wanted& wanted, std::int
   return of_all_parts(ranks, present_, [&](SubdomainId s) { return own[s]; });
 }
 
-/// With the fields that the generation before has.
-Holding Session::holding(const Held& before, Generation next, std::int32_t threads, Ranks& ranks) {
-  Holding made{std::move(next), {}, {}};
-  const Lineage lineage(before.generation, made.generation, threads, ranks);
-  made.fields = carried(before.fields, lineage, made.stayed);
-  return made;
-}
-
 void Session::advance(const std::function<Wanted()>& want, const Means& means, const Hooks& hooks) {
   Ranks& ranks = means.ranks;
   const std::int32_t threads = means.threads;
   const Stopwatch all;
   AdaptReport report{.generation = report_.generation + 1};
-  Stopwatch stage;
+  Stages stages;
   const Wanted wanted = want();
   report.scale = wanted.scale;
   const IdVector<SubdomainId, Demand> demands = demands_of(wanted, threads, ranks);
   take_from_owners(fields_, present_.piece, ranks);
-  report.lengths = stage.seconds();
+  stages.end(report.lengths);
 
-  stage = {};
   const Basis before{plan_, {present_, fields_, stayed_}, wanted, demands};
   const auto assemble_parts = [&](const Decomposition& decomposition, Parts parts) {
     return assembled(decomposition, std::move(parts), ranks);
@@ -221,59 +225,78 @@ void Session::advance(const std::function<Wanted()>& want, const Means& means, c
   const Basis basis = joined ? joined->basis() : before;
   const Generation& from = basis.present.generation;
   report.joined = static_cast<std::int32_t>(present_.parts.size() - from.parts.size());
-  report.join = stage.seconds();
+  if (joined) joined->present.generation.piece = {};
+  stages.end(report.join);
 
-  stage = {};
   const IdVector<SubdomainId, Fate> fates =
       fates_of(basis, joined ? joined->several : std::vector<SubdomainId>(), ranks);
   for (const Fate fate : fates)
     ++(fate == Fate::kKeep ? report.kept : fate == Fate::kMend ? report.mended : report.remade);
   Parts parts = regenerate(basis.plan, from, basis.wanted, basis.demands, fates, threads, ranks, hooks);
-  report.refine = stage.seconds();
+  stages.end(report.refine);
 
-  stage = {};
   const Dividing dividing{basis.plan, shares_, from, basis.wanted, threads, hooks};
   std::optional<Divided> divided = divide_heavy(parts, dividing, ranks);
   if (divided) parts = std::move(divided->parts);
-  report.divide = stage.seconds();
+  stages.end(report.divide);
 
-  stage = {};
-  Generation next =
-      assembled(divided ? divided->cut.with_separators : basis.plan.decomposition, std::move(parts), ranks);
-  report.assemble = stage.seconds();
-
-  stage = {};
-  Holding made = holding(basis.present, std::move(next), threads, ranks);
-  if (joined) since(joined->present, made);
-  report.transfer = stage.seconds();
-
-  stage = {};
-  const Decomposition& decomposition = divided ? divided->cut.divided : basis.plan.decomposition;
-  Descendants descendants{joined ? std::move(joined->whole) : numbers_of(present_.parts), numbers_of(from.parts)};
-  if (divided) {
-    descendants.whole_of = std::move(divided->cut.whole_of);
-    made = recast(
-        made, {}, decomposition, descendants.whole_of,
-        [&](Parts of_next) { return assembled(decomposition, std::move(of_next), ranks); }, ranks);
-  }
-  report.divided = static_cast<std::int32_t>(decomposition.size() - from.parts.size());
-  report.assemble += stage.seconds();
-
-  stage = {};
+  Unfinished next{
+      .from = basis.present,
+      .parts = std::move(parts),
+      .decomposition = basis.plan.decomposition,
+      .cut = divided ? std::optional(std::move(divided->cut)) : std::nullopt,
+      .descendants = {joined ? std::move(joined->whole) : numbers_of(present_.parts), numbers_of(from.parts)}};
+  if (next.cut) next.descendants.whole_of = std::move(next.cut->whole_of);
   report.moved = joined ? joined->moved : 0;
-  made = placed(std::move(made), decomposition, descendants, means, report);
-  report.balance = stage.seconds();
+  // Nobody looks at the old piece any more: it goes before the new one comes.
+  DistributedPiece old = std::exchange(present_.piece, {});
+  if (!keeps_old_) old = {};
+  Holding made;
+  try {
+    made = finished(next, means, report);
+  } catch (...) {
+    present_.piece = keeps_old_ ? std::move(old) : assembled(plan_.decomposition, present_.parts, ranks).piece;
+    throw;
+  }
+  if (joined) since(joined->present, made);
 
-  if (keeps_old_) old_ = std::move(present_.piece);
+  if (keeps_old_) old_ = std::move(old);
   if (joined) plan_ = std::move(joined->plan);
-  if (divided) set_decomposition(std::move(divided->cut.divided), descendants.whole_of);
-  descendants_ = std::move(descendants);
+  if (next.cut) set_decomposition(std::move(next.cut->divided), next.descendants.whole_of);
+  descendants_ = std::move(next.descendants);
   present_ = std::move(made.generation);
   stayed_ = std::move(made.stayed);
   fields_ = std::move(made.fields);
   spent_ = {};
   report.seconds = all.seconds();
   report_ = report;
+}
+
+/// Puts it together, gives it fields, divides what is to be divided, and places it.
+Holding Session::finished(Unfinished& next, const Means& means, AdaptReport& report) const {
+  Ranks& ranks = means.ranks;
+  Stages stages;
+  const Decomposition& whole = next.cut ? next.cut->with_separators : next.decomposition;
+  Holding made{assembled(whole, std::move(next.parts), ranks), {}, {}};
+  stages.end(report.assemble);
+
+  const Held& from = next.from;
+  made.fields = carried(from.fields, Lineage(from.generation, made.generation, means.threads, ranks), made.stayed);
+  stages.end(report.transfer);
+
+  const Decomposition& decomposition = next.cut ? next.cut->divided : next.decomposition;
+  if (next.cut) {
+    made.generation.piece = {};
+    made = recast(
+        made, {}, decomposition, next.descendants.whole_of,
+        [&](Parts of_next) { return assembled(decomposition, std::move(of_next), ranks); }, ranks);
+  }
+  report.divided = static_cast<std::int32_t>(decomposition.size() - from.generation.parts.size());
+  stages.end(report.assemble);
+
+  made = placed(std::move(made), decomposition, next.descendants, means, report);
+  stages.end(report.balance);
+  return made;
 }
 
 IdVector<SubdomainId, Fate> Session::fates_of(const Basis& basis, const std::vector<SubdomainId>& joined,

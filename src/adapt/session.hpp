@@ -90,12 +90,20 @@ class Session {
   void require_same_call(const std::string& call, Ranks& ranks) const;
 
  private:
+  /// The parts of a generation that are not put together yet.
+  struct Unfinished {
+    Held from;
+    Parts parts;
+    const Decomposition& decomposition;  ///< of all parts, but for what is cut further
+    std::optional<CutFurther> cut;
+    Descendants descendants;
+  };
   void advance(const std::function<Wanted()>& want, const Means& means, const Hooks& hooks);
+  [[nodiscard]] Holding finished(Unfinished& next, const Means& means, AdaptReport& report) const;
   [[nodiscard]] IdVector<SubdomainId, Demand> demands_of(const Wanted& wanted, std::int32_t threads,
                                                          Ranks& ranks) const;
   [[nodiscard]] IdVector<SubdomainId, Fate> fates_of(const Basis& basis, const std::vector<SubdomainId>& joined,
                                                      Ranks& ranks) const;
-  [[nodiscard]] static Holding holding(const Held& before, Generation next, std::int32_t threads, Ranks& ranks);
   [[nodiscard]] Generation assembled(const Decomposition& decomposition, Parts parts, Ranks& ranks) const;
   [[nodiscard]] Holding placed(Holding made, const Decomposition& decomposition, const Descendants& descendants,
                                const Means& means, AdaptReport& report) const;
