@@ -3,12 +3,14 @@
 #include <algorithm>
 
 #include "adapt/locator.hpp"
+#include "geometry/triangle_geometry.hpp"
 
 namespace driftmesh::adapt {
 namespace {
 
-/// Looks among the triangles around vertex v, one of which is t, for the one with these corners.
-TriangleId find_around(const Triangulation& mesh, TriangleId t, VertexId v, const std::array<VertexId, 3>& corners) {
+/// The triangle with these corners. Looks around the first one, whose triangle t is.
+TriangleId find(const Triangulation& mesh, const Locator& locator, TriangleId t,
+                const std::array<VertexId, 3>& corners) {
   const auto has_corners = [&](TriangleId u) {
     return std::ranges::all_of(mesh.triangles[u].vertex,
                                [&](VertexId w) { return std::ranges::count(corners, w) == 1; });
@@ -16,13 +18,16 @@ TriangleId find_around(const Triangulation& mesh, TriangleId t, VertexId v, cons
   for (const bool forward : {true, false})
     for (TriangleId u = t;;) {
       if (has_corners(u)) return u;
-      const int i = mesh.corner_of(u, v);
+      const int i = mesh.corner_of(u, corners[0]);
       const HalfEdge beyond = mesh.across(half_edge(u, forward ? next(i) : previous(i)));
       if (beyond == kNone) break;
       u = triangle_of(beyond);
       if (u == t) return kNone;
     }
-  return kNone;
+  // The triangles around a vertex of the boundary may be apart from each other.
+  const TriangleId u =
+      locator.locate(centroid({mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]]})).triangle;
+  return has_corners(u) ? u : kNone;
 }
 
 /// A mesh that was mended keeps most of its vertices where they are in memory.
@@ -66,7 +71,7 @@ Descent trace(const Triangulation& old_mesh, const Triangulation& new_mesh) {
     if (around[v[0]] == kNone) around[v[0]] = locator.locate(new_mesh.points[v[0]]).triangle;
     std::array<VertexId, 3> old{};
     for (int i = 0; i < 3; ++i) old[i] = descent.sources[v[i]].vertex[0];
-    descent.same[t] = find_around(old_mesh, around[v[0]], old[0], old);
+    descent.same[t] = find(old_mesh, locator, around[v[0]], old);
   }
   return descent;
 }

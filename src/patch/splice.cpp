@@ -75,12 +75,14 @@ class Maker {
     add_point(old < 0 ? p : part_.mesh.points[to_index(old)], old, marker);
   }
 
-  /// A triangle that stays begins with the corner that it began with.
+  /// A triangle that stays, in the same region, begins with the corner that it began with.
   void add_made(std::size_t t) {
     std::array<std::int32_t, 3> corners = made_.triangles[t], old{};
     for (std::size_t i = 0; i < 3; ++i) old[i] = new_.old_point[to_index(corners[i])];
     const bool known = std::ranges::all_of(old, [](std::int32_t v) { return v >= 0; });
-    const std::int32_t same = known ? old_.triangle_of(old) : kNew;
+    std::int32_t same = known ? old_.triangle_of(old) : kNew;
+    const double region = made_.regions.empty() ? 0 : made_.regions[t];
+    if (same >= 0 && has_regions() && part_.mesh.regions[to_index(same)] != region) same = kNew;
     if (same >= 0)
       while (old[0] != part_.mesh.triangles[to_index(same)][0]) {
         std::rotate(corners.begin(), corners.begin() + 1, corners.end());
@@ -88,7 +90,7 @@ class Maker {
       }
     new_.mesh.triangles.push_back(corners);
     new_.old_triangle.push_back(same);
-    if (has_regions()) new_.mesh.regions.push_back(made_.regions.empty() ? 0 : made_.regions[t]);
+    if (has_regions()) new_.mesh.regions.push_back(region);
   }
 
   /// Of the edges between what is made and what stays only those that were listed.

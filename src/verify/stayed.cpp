@@ -152,6 +152,11 @@ class Comparison {
     return corners;
   }
 
+  /// Where regions change, the same triangles are others.
+  [[nodiscard]] bool same_region(std::size_t t, std::int32_t old) const {
+    return before_.regions.empty() || now_.regions.empty() || now_.regions[t] == before_.regions[to_index(old)];
+  }
+
   void check_mapped_triangles() {
     const std::vector<bool> in_use = used(old_triangle_, before_.triangles.size());
     for (std::size_t t = 0; t < old_triangle_.size(); ++t) {
@@ -162,7 +167,7 @@ class Comparison {
         old = kNotThere;
       } else if (old < 0 && std::ranges::find(corners, kNotThere) == corners.end()) {
         old_triangles_.find(sorted_corners(corners), [&](std::int32_t other) {
-          if (in_use[to_index(other)]) return false;
+          if (in_use[to_index(other)] || !same_region(t, other)) return false;
           contradict("triangle {} is new by the map, but has the corners of triangle {} of the old mesh", t, other);
           return true;
         });
@@ -208,10 +213,9 @@ class Comparison {
 
   /// Regions of triangles and markers of points.
   void compare_labels() {
-    if (!before_.regions.empty() && !now_.regions.empty())
-      for (std::size_t t = 0; t < old_triangle_.size(); ++t)
-        if (const std::int32_t old = old_triangle_[t]; old >= 0 && now_.regions[t] != before_.regions[to_index(old)])
-          contradict("triangle {} was in region {} and is in {}", t, before_.regions[to_index(old)], now_.regions[t]);
+    for (std::size_t t = 0; t < old_triangle_.size(); ++t)
+      if (const std::int32_t old = old_triangle_[t]; old >= 0 && !same_region(t, old))
+        contradict("triangle {} was in region {} and is in {}", t, before_.regions[to_index(old)], now_.regions[t]);
     at_change_.assign(now_.points.size(), false);
     for (std::size_t t = 0; t < old_triangle_.size(); ++t)
       if (old_triangle_[t] < 0)

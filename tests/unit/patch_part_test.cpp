@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "adapt/descent.hpp"
 #include "driftmesh/error.hpp"
 #include "mesh/link_triangles.hpp"
 #include "patch/part.hpp"
@@ -87,4 +88,12 @@ TEST_CASE("all of a mesh is a part, unless it has points without triangles") {
   linked = patch::link(mesh);
   CHECK(!patch::whole_part(mesh, linked));
   CHECK(linked.beyond.size() == mesh.triangles.size());
+}
+
+TEST_CASE("triangles that meet in one point are found in another order") {
+  const Mesh before = triangles({{0, 0}, {4, 0}, {4, 1}, {-4, 0}, {-4, -1}}, {{0, 1, 2}, {0, 3, 4}});
+  const Mesh after = triangles({{-4, 0}, {-4, -1}, {4, 0}, {4, 1}, {0, 0}}, {{4, 2, 3}, {4, 0, 1}});
+  const auto linked = [](const Mesh& mesh) { return patch::link(mesh).triangulation; };
+  const adapt::Descent descent = adapt::trace(linked(before), linked(after));
+  for (const TriangleId t : ids_of(descent.same)) CHECK(descent.same[t] == t);
 }

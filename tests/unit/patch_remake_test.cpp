@@ -183,6 +183,26 @@ TEST_CASE("a part is made anew although the outline changes elsewhere, or not at
   }
 }
 
+TEST_CASE("what comes to another region does not stay, wherever its triangles are") {
+  Mesh before = unit_squares(16, 8);
+  for (std::size_t t = 0; t < before.triangles.size(); ++t) before.regions.push_back(t % 32 < 8 ? 1 : 2);
+  patch::NewDomain domain{{}, 1e-12};
+  domain.pslg.points = {{0, 0}, {4, 0}, {16, 0}, {16, 8}, {4, 8}, {0, 8}};
+  domain.pslg.segments = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 4, 1}, {4, 5, 1}, {5, 0, 1}, {1, 4, 0}};
+  domain.pslg.regions = {{{1, 1}, 3, 0}, {{6, 1}, 2, 0}};
+  patch::Order order{.domain = &domain};
+  order.lengths.assign(before.points.size(), std::sqrt(2.0));
+  const patch::Remade after = patch::remake(before, {}, order);
+  std::int64_t stayed = 0;
+  for (std::size_t t = 0; t < after.mesh.triangles.size(); ++t)
+    if (const std::int32_t old = after.old_triangles[t]; old >= 0) {
+      CHECK(after.mesh.regions[t] == before.regions[static_cast<std::size_t>(old)]);
+      ++stayed;
+    }
+  CHECK(stayed > 64);
+  CHECK(after.report.made == std::ssize(after.mesh.triangles) - stayed);
+}
+
 TEST_CASE("an island beside a mesh begins at the nearest triangle") {
   Mesh mesh = unit_squares(9, 9);
   patch::NewDomain domain{square_domain(9), 1e-12};

@@ -148,6 +148,9 @@ TEST_CASE("a map that is wrong is named") {
   CHECK(with_points({{0, -1}}).find("several: point 0 is new by the map, but is where point 0") == 0);
   CHECK(with_triangles(strip(), {{3, -1}}) ==
         "triangle 3 is new by the map, but has the corners of triangle 3 of the old mesh");
+  Mesh elsewhere = strip();
+  elsewhere.regions[3] = 9;
+  CHECK(with_triangles(elsewhere, {{3, -1}}) == "nothing");
   CHECK(with_triangles(flipped(), {{2, -1}}) == "triangle 3 has not the corners that triangle 3 of the old mesh had");
   CHECK(with_triangles(strip(), {{3, 2}}).find("triangle 3 has the old number 2, which another one has, too") !=
         std::string::npos);
