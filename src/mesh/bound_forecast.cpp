@@ -37,6 +37,14 @@ class Asked {
   double twice_area_bound_;
 };
 
+/// The same in a piece that is no longer bisected although lengths fall to next to nothing at a corner: there they are
+/// no more than a few triangles for each power of two, whereas that corner alone would ask for any number.
+double integrate_beside_spike(const Asked& asked, double twice, const std::array<double, 3>& at_corners) {
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) sum += asked.density((at_corners[k] + at_corners[(k + 1) % 3]) / 2);
+  return twice / kMeanArea * sum / 3;
+}
+
 /// How many triangles lengths ask for in a triangle, with their values at the corners: the integral of one over the
 /// mean area, by bisection of the longest edge until lengths vary little or the pieces are about as small as the
 /// triangles asked for. Where lengths fall between the points that were looked at, so steeply that the mesh cannot
@@ -44,13 +52,14 @@ class Asked {
 double integrate_size(const Asked& asked, const CornerPoints& corners, const std::array<double, 3>& at_corners,
                       int depth = 0, bool steep = false) {
   constexpr int kDeepest = 16, kDeepestSteep = 28;
-  constexpr double kSmooth = 1.6;
+  constexpr double kSmooth = 1.6, kSpike = 100;
   const auto [least_corner, most_corner] = std::minmax({at_corners[0], at_corners[1], at_corners[2]});
   const double twice = 2 * signed_area(corners[0], corners[1], corners[2]);
   const auto is_small = [&](double least) { return depth >= kDeepest || twice < 4 * twice_area_of_edge(least); };
   if (most_corner <= kSmooth * least_corner || is_small(least_corner)) {
     const double in_middle = asked.length_at(centroid(corners));
     const double least = std::min(least_corner, in_middle), most = std::max(most_corner, in_middle);
+    if (depth >= kDeepest && most > kSpike * least) return integrate_beside_spike(asked, twice, at_corners);
     if (most <= kSmooth * least || is_small(least)) {
       const double sum = asked.density(at_corners[0]) + asked.density(at_corners[1]) + asked.density(at_corners[2]);
       const double count = twice / kMeanArea * (sum + 9 * asked.density(in_middle)) / 12;

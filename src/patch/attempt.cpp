@@ -27,6 +27,9 @@ IdVector<RootId, bool> fixed_roots(const Triangulation& mesh, const Domain& doma
   return fixed;
 }
 
+/// A forecast that is so much above a limit is no mistake.
+constexpr double kSurely = 4;
+
 /// Whether nothing stays beside it, so that refinement may split and delete as it wants to.
 bool is_whole(const Domain& domain) {
   return std::ranges::find(domain.fixed, true) == domain.fixed.end() &&
@@ -142,11 +145,12 @@ Attempt attempt(const Domain& domain, const Part& part, const Extent& extent, co
   bounds.size = making.sizes.front();
   Triangulation mesh = triangulate(domain.pslg, domain.sides);
   const IdVector<RootId, bool> fixed = fixed_roots(mesh, domain);
-  if (is_whole(domain))
-    if (const double forecast = forecast_triangles(mesh, bounds); is_worth_cutting(mesh, forecast, making.cut_from)) {
-      static_cast<void>(prepare_corners(mesh));
-      return {refine_in_subdomains(mesh, domain.pslg, bounds, making.sizes, forecast, making.most_triangles), {}};
-    }
+  const double forecast = forecast_triangles(mesh, bounds);
+  if (!(forecast <= kSurely * static_cast<double>(making.most_triangles))) refuse_many(making.most_triangles);
+  if (is_whole(domain) && is_worth_cutting(mesh, forecast, making.cut_from)) {
+    static_cast<void>(prepare_corners(mesh));
+    return {refine_in_subdomains(mesh, domain.pslg, bounds, making.sizes, forecast, making.most_triangles), {}};
+  }
   for (VertexOrigin& origin : mesh.origin)
     if (is_input(origin) && domain.free[to_index(origin)]) origin = kFree;
   static_cast<void>(prepare_corners(mesh, {bounds.min_angle, false, bounds.rules}, fixed));

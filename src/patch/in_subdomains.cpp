@@ -7,6 +7,7 @@
 #include "distributed/held_subdomains.hpp"
 #include "distributed/ranks.hpp"
 #include "driftmesh/error.hpp"
+#include "mesh/handles.hpp"
 #include "runtime/plan_run.hpp"
 #include "runtime/threads/refinement_in_rounds.hpp"
 
@@ -26,8 +27,10 @@ RunPlan plan_of(const Triangulation& domain, const QualityBounds& bounds, double
 }  // namespace
 
 void refuse_many(std::int64_t most_triangles) {
-  throw LimitError("lengths ask for more than " + std::to_string(most_triangles) +
-                   " triangles in what is made anew; ask for longer ones, or allow more triangles");
+  const bool limited = most_triangles < kMostRefined;
+  throw LimitError(
+      "lengths ask for more than " + std::to_string(most_triangles) + " triangles in what is made anew" +
+      (limited ? "; ask for longer ones, or allow more triangles" : ", which no mesh has; ask for longer ones"));
 }
 
 Mesh refine_in_subdomains(const Triangulation& domain, const Pslg& pslg, const QualityBounds& bounds,

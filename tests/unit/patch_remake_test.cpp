@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "adapt/fields.hpp"
+#include "driftmesh/error.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "patch/area.hpp"
 #include "patch/outline_change.hpp"
@@ -180,6 +181,30 @@ TEST_CASE("a part is made anew although the outline changes elsewhere, or not at
       const Point center = centroid({place(a), place(b), place(c)});
       if (std::abs(center.x - 11) < 1 && std::abs(center.y - 11) < 1) CHECK(area_at(after.mesh, t) < 0.25);
     }
+  }
+}
+
+TEST_CASE("a length of next to nothing at one point takes few triangles") {
+  const Mesh before = unit_squares(9, 9);
+  for (const double least : {1e-4, 1e-9, 1e-300}) {
+    CAPTURE(least);
+    patch::Order order{.inside = std::vector<bool>(before.triangles.size(), true)};
+    order.lengths.assign(before.points.size(), 1);
+    order.lengths[34] = least;
+    const patch::Remade after = patch::remake(before, {}, order);
+    CHECK(after.mesh.triangles.size() > 1'000);
+    CHECK(after.mesh.triangles.size() < 30'000);
+    CHECK(whole_area(after.mesh) == doctest::Approx(81));
+  }
+}
+
+TEST_CASE("what surely is too much is refused before it is made") {
+  const Mesh before = unit_squares(9, 9);
+  for (const double most : {0.0, 1e6}) {
+    patch::Order order{.inside = std::vector<bool>(before.triangles.size(), true), .options = {.most_triangles = most}};
+    order.lengths.assign(before.points.size(), most == 0 ? 1e-9 : 1e-3);
+    CHECK_THROWS_WITH_AS(static_cast<void>(patch::remake(before, {}, order)),
+                         doctest::Contains(most == 0 ? "which no mesh has" : "allow more triangles"), LimitError);
   }
 }
 
