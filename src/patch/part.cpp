@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "driftmesh/error.hpp"
+#include "patch/flaws.hpp"
 
 namespace driftmesh::patch {
 
@@ -37,8 +38,9 @@ Part part_of(const Mesh& mesh, std::vector<std::int32_t> triangles) {
 }
 
 Linked link(const Mesh& mesh) {
+  require_sound(mesh);
   Linked linked{triangle_neighbors(mesh), {}};
-  linked.triangulation = triangulation_of(mesh, linked.beyond);
+  linked.triangulation = with_flaw_of(mesh, [&] { return triangulation_of(mesh, linked.beyond); });
   return linked;
 }
 

@@ -27,6 +27,7 @@ struct Linked {
   TriangleNeighbors beyond;
   Triangulation triangulation;  ///< see triangulation_of
 };
+/// Throws Error for a mesh that is not sound, or whose triangles do not fit together.
 [[nodiscard]] Linked link(const Mesh& mesh);
 
 /// All of a mesh as a part, with what of it is linked already; `linked` is left without neighbors. Nothing: it has

@@ -14,7 +14,8 @@ struct NamedField {
   adapt::Field field;
 };
 
-/// Takes all point data out of a mesh, as fields of their own that are interpolated. The mesh keeps their names.
+/// Takes all point data out of a mesh, as fields of their own that are interpolated. The mesh keeps their names. Throws
+/// Error if values or names are too many or too few.
 [[nodiscard]] std::vector<NamedField> take_point_data(Mesh& mesh);
 
 /// Puts as many fields back, in their order.

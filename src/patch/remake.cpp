@@ -17,6 +17,7 @@
 #include "patch/attempt.hpp"
 #include "patch/carry.hpp"
 #include "patch/domain.hpp"
+#include "patch/flaws.hpp"
 #include "patch/lengths.hpp"
 #include "patch/neighborhood.hpp"
 #include "patch/old_places.hpp"
@@ -215,9 +216,10 @@ class Sizes {
 }  // namespace
 
 Remade remake(Mesh mesh, std::vector<adapt::Field> fields, Order order) {
+  require_sound(mesh);
   require_lengths(mesh, order.lengths);
   std::vector<bool> inside = std::move(order.inside);
-  const OutlineChange change = change_of(mesh, fields, order, inside);
+  const OutlineChange change = with_flaw_of(mesh, [&] { return change_of(mesh, fields, order, inside); });
   if (std::ranges::find(inside, true) == inside.end()) {
     Remade same = unchanged(std::move(mesh), std::move(fields));
     same.report.other_markers = change.other_markers;
@@ -228,18 +230,22 @@ Remade remake(Mesh mesh, std::vector<adapt::Field> fields, Order order) {
   Neighborhood taken(mesh, inside);
   taken.grow(kLayers);
   for (int round = 0;; ++round) {
-    auto [part, before] = linked_part(mesh, taken, order.linked);
-    require_counterclockwise(part);
+    auto [part, before] = with_flaw_of(mesh, [&] {
+      LinkedPart some = linked_part(mesh, taken, order.linked);
+      require_counterclockwise(some.part);
+      return some;
+    });
     Extent extent = extent_of(mesh, part, taken, inside);
     const OldPlaces old(part.mesh);
     if (order.domain != nullptr) apply(change, part, old, extent);
     const adapt::Lengths lengths = lengths_in(part, before, extent, order.lengths, order.options);
-    const Domain domain = domain_of(part, extent, old);
+    const Domain domain = with_flaw_of(mesh, [&] { return domain_of(part, extent, old); });
     const Sizes sizes(before, lengths, order.threads);
-    const Attempt made = attempt(domain, part, extent, old, {.min_angle = order.min_angle},
-                                 {.sizes = sizes.all(),
-                                  .most_triangles = most > 0 ? static_cast<std::int64_t>(most) : kMostRefined,
-                                  .cut_from = order.cut_from});
+    const Making making{.sizes = sizes.all(),
+                        .most_triangles = most > 0 ? static_cast<std::int64_t>(most) : kMostRefined,
+                        .cut_from = order.cut_from};
+    const Attempt made =
+        with_flaw_of(mesh, [&] { return attempt(domain, part, extent, old, {.min_angle = order.min_angle}, making); });
     if (!made.tight.empty() && round < kMostRounds &&
         taken.grow_around(numbers_in_whole(part, made.tight), kLayers + round))
       continue;

@@ -393,7 +393,85 @@ class Large(Adapt):
                     says=["more than 600000 triangles"])
 
 
+class Flaws(Adapt):
+    """Meshes of which nothing can be made are refused, whatever is asked for and whatever file they come from."""
+
+    ASKED = ["--max-length", 0.3], ["--max-length", 0.3, "--only", "0,0,1,1"], ["--outline", "domain.poly"]
+
+    def assert_refused(self, points, triangles, says):
+        self.write("old.vtu", as_vtu(points, triangles, {}))
+        for asked in self.ASKED:
+            result = self.refuse("adapt", "old.vtu", *asked, "-o", "new.vtu", says=["old.vtu: " + says])
+            self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.assertNotIn("new.vtu", self.files())
+
+    def test_a_point_twice_in_a_triangle(self):
+        points, triangles = self.mesh("whole.vtu")
+        says = f"triangle 3 (1 1 2; counted from 0): three different points below {len(points)} are expected"
+        self.assert_refused(points, triangles[:3] + [(1, 1, 2)] + triangles[4:], says)
+        for name in "bad.msh", "bad.h5", "bad.ele", "bad.su2", "bad.mesh", "bad.14":
+            self.succeed("convert", "old.vtu", name)
+            self.refuse("adapt", name, "--max-length", 0.3, "-o", "new.vtu", says=[f"{name}: {says}"])
+        self.assert_refused(points, triangles + [(5, 5, 5)], f"triangle {len(triangles)} (5 5 5; counted from 0)")
+
+    def test_triangles_that_do_not_fit_together(self):
+        points, triangles = self.mesh("whole.vtu")
+        near = next(i for i, t in enumerate(triangles) if max(map(max, (points[v] for v in t))) < 1)
+        self.assert_refused(points, triangles + triangles[near:near + 1],
+                            f"triangles {near} and {len(triangles)} (counted from 0) have the same corners")
+        a, b, c = triangles[near]
+        self.assert_refused(points + [tuple((points[a][k] + points[b][k] + points[c][k]) / 3 for k in range(2))],
+                            triangles + [(a, b, len(points))],
+                            f"triangles {near} and {len(triangles)} (counted from 0) lie on the same side of the edge from point {a} ")
+        self.assert_refused(points, [t[::-1] if i % 3 == 1 else t for i, t in enumerate(triangles)],
+                            f"corners of {(len(triangles) + 1) // 3} of {len(triangles)} triangles run in the other direction "
+                            "than those of the others, first those of triangle 1 (counted from 0)")
+
+    def test_points_and_triangles_in_wrong_places(self):
+        corners = [(0.0, 0.0), (1.0, 0.0), (0.5, 0.0), (0.5, 1.0), (0.5, -1.0)]
+        self.write("domain.poly", SQUARE)
+        self.assert_refused(corners, [(0, 2, 1), (0, 2, 3), (2, 1, 3)], "triangle 0 (0 2 1; counted from 0) is flat")
+        self.write("hang.vtu", as_vtu(corners, [(0, 4, 1), (0, 2, 3), (2, 1, 3)], {}))
+        self.refuse("adapt", "hang.vtu", "--max-length", 0.3, "-o", "new.vtu",
+                    says=["hang.vtu: point 2 (0.5, 0) lies on the edge from point 1 (1, 0) to point 0 (0, 0), which triangle 0"])
+        points, triangles = self.mesh("whole.vtu")
+        inner = next(v for v, p in enumerate(points) if 0 < p[0] < 4 and 0 < p[1] < 4)
+        first = next(i for i, t in enumerate(triangles) if inner in t)
+        again = [tuple(len(points) if i == first and v == inner else v for v in t) for i, t in enumerate(triangles)]
+        self.write("twice.vtu", as_vtu(points + [points[inner]], again, {}))
+        self.refuse("adapt", "twice.vtu", "--max-length", 0.3, "-o", "new.vtu",
+                    says=[f"points {inner} and {len(points)} (counted from 0) are both at ("])
+        other = [(x + 0.1, y + 0.1) for x, y in points]
+        both = triangles + [tuple(v + len(points) for v in t) for t in triangles]
+        self.write("over.vtu", as_vtu(points + other, both, {}))
+        self.refuse("adapt", "over.vtu", "--max-length", 0.3, "-o", "new.vtu",
+                    says=["over.vtu: the edge from point", "crosses that from point", "so that triangles overlap"])
+
+    def test_no_triangles(self):
+        self.write("domain.poly", SQUARE)
+        self.write("none.vtu", as_vtu([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)], [], {}))
+        self.refuse("adapt", "none.vtu", "--max-length", 0.3, "-o", "new.vtu", says=["none.vtu: ", "no triangles"])
+        self.refuse("adapt", "none.vtu", "--outline", "domain.poly", "-o", "new.vtu", says=["none.vtu: ", "no triangles"])
+
+    def test_points_without_triangles_do_not_matter(self):
+        points, triangles = self.mesh("old.vtu")
+        self.write("more.vtu", as_vtu(points + [points[5], (100.0, 100.0)], triangles, {}))
+        for asked in self.ASKED[:2]:
+            self.succeed("adapt", "more.vtu", *asked, "-o", "new.vtu")
+            self.succeed("check", "new.vtu", "--angle", 20)
+
+
 class Errors(Adapt):
+    def test_help_lists_what_it_writes(self):
+        self.mesh("old.vtu")
+        listed = re.search(r"The new mesh; its extension selects the format: ([^:]*?)(?=\n +-|\n\n|$)",
+                           re.sub(r"\s*\n {10,}", " ", self.succeed("adapt", "--help")))[1]
+        extensions = re.findall(r"\.[a-z0-9.]*[a-z0-9]", listed)
+        self.assertIn(".vtu", extensions)
+        self.assertGreater(len(extensions), 8)
+        for extension in extensions:
+            self.succeed("adapt", "old.vtu", "--max-length", 0.3, "-o", "new" + extension)
+
     def test_each_is_one_clear_line(self):
         self.mesh("old.vtu", h=lambda x, y: 1.0, bad=lambda x, y: -1.0 if x > 3 else 1.0,
                   nan=lambda x, y: math.nan if x > 3 else 1.0)

@@ -58,9 +58,11 @@ TEST_CASE("triangles that do not fit together are refused") {
   };
   for (const auto& [what, corners] : bad) {
     CAPTURE(what);
-    CHECK_THROWS_WITH_AS((void)patch::link(triangles(kPoints, corners)),
+    const Mesh mesh = triangles(kPoints, corners);
+    CHECK_THROWS_WITH_AS((void)patch::triangulation_of(mesh, triangle_neighbors(mesh)),
                          "triangles do not fit together along their edges; look for the place with driftmesh check",
                          Error);
+    CHECK_THROWS_AS((void)patch::link(mesh), Error);
   }
   CHECK(patch::link(triangles(kPoints, {{0, 1, 2}, {1, 0, 3}})).triangulation.roots.size() == 4);
 }
@@ -85,6 +87,7 @@ TEST_CASE("all of a mesh is a part, unless it has points without triangles") {
   CHECK(whole->mesh.regions == some.mesh.regions);
   CHECK(whole->mesh.edges == some.mesh.edges);
   mesh.points.push_back({9, 9});
+  mesh.point_markers.push_back(0);
   linked = patch::link(mesh);
   CHECK(!patch::whole_part(mesh, linked));
   CHECK(linked.beyond.size() == mesh.triangles.size());
