@@ -257,7 +257,7 @@ std::vector<cli::Option> adapt_options(AdaptCommand& command) {
       {.name = "output",
        .letter = 'o',
        .value = "NEW",
-       .help = "The new mesh; its extension selects the format: " + mesh_files_written(),
+       .help = "The new mesh; its extension selects the format: " + whole_mesh_files_written(),
        .required = true,
        .completes = cli::Option::Completes::kFile,
        .take = cli::into(command.output)},

@@ -114,7 +114,7 @@ cli::Command convert_command() {
                {.kind = cli::Option::Kind::kPositional,
                 .name = "output",
                 .value = "OUTPUT",
-                .help = "The new file; its extension selects the format: " + mesh_files_written(),
+                .help = "The new file; its extension selects the format: " + whole_mesh_files_written(),
                 .required = true,
                 .completes = cli::Option::Completes::kFile,
                 .take = cli::into(options->output)},

@@ -72,6 +72,11 @@ const std::string& mesh_files_written() {
   return list;
 }
 
+const std::string& whole_mesh_files_written() {
+  static const std::string list = list_of_extensions([](const MeshFormat& format) { return format.write != nullptr; });
+  return list;
+}
+
 const std::string& mesh_files_described() {
   static const std::string list = [] {
     std::vector<std::string> formats;

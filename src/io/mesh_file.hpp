@@ -21,6 +21,8 @@ namespace driftmesh {
 [[nodiscard]] const std::string& mesh_files_read();
 /// The extensions of what write_mesh or ranks write.
 [[nodiscard]] const std::string& mesh_files_written();
+/// The extensions of what write_mesh writes.
+[[nodiscard]] const std::string& whole_mesh_files_written();
 /// The same with what help says of each format: ".vtu (ParaView), ...".
 [[nodiscard]] const std::string& mesh_files_described();
 
