@@ -44,7 +44,7 @@ enum class Transfer : std::uint8_t {
   /// The integral stays the same but for rounding (1e-12 of that of the absolute values). At triangles and corners,
   /// each gets its part of those that it overlaps; at points, interpolation is brought as close to the lumped
   /// projection as that takes, which leaves a linear field what it is. In all cases no value exceeds those that it
-  /// comes from.
+  /// comes from, but for the rounding of areas, which grows with coordinates relative to the size of triangles.
   kConserve,
 };
 
