@@ -4,6 +4,8 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -41,7 +43,7 @@ struct ByItself {
   [[nodiscard]] static const Mesh& mesh_of(const AdaptiveMesh& adaptive) { return adaptive.mesh(); }
 };
 
-/// An adaptive mesh with what its callables need, and the shapes of its fields. `Library` is its class in C++;
+/// An adaptive mesh with what its callables need. `Library` is its class in C++;
 /// together(make) does what may fail on this rank alone, so that the others hear of it; mesh_of() is this rank's part.
 template <class Library, class Together>
 class AdaptiveObject {
@@ -85,18 +87,14 @@ class AdaptiveObject {
     Attached field = together_([&] { return attached_from(name, given, where, transfer); });
     {
       const py::gil_scoped_release unlocked;
-      mesh_.attach(name, std::move(field.values), field.place, field.how);
+      mesh_.attach(name, std::move(field.values), field.place, field.how, std::move(field.shape));
     }
-    trailing_[name] = std::move(field.trailing);
   }
 
   void detach(const std::string& name) {
     require_rest();
-    {
-      const py::gil_scoped_release unlocked;
-      mesh_.detach(name);
-    }
-    trailing_.erase(name);
+    const py::gil_scoped_release unlocked;
+    mesh_.detach(name);
   }
 
   /// A copy, which nobody should take for the field itself.
@@ -105,12 +103,8 @@ class AdaptiveObject {
     const std::span<const double> values = mesh_.field(name);
     const FieldPlace place = mesh_.fields().at(name);
     std::vector<py::ssize_t> shape{places_of(place)};
-    if (const auto known = trailing_.find(name); known != trailing_.end()) {
-      for (const py::ssize_t n : known->second) shape.push_back(n);
-    } else {  // loaded
-      if (place == FieldPlace::kCorners) shape.push_back(3);
-      shape.push_back(-1);
-    }
+    if (place == FieldPlace::kCorners) shape.push_back(3);
+    for (const std::int64_t n : mesh_.shape(name)) shape.push_back(static_cast<py::ssize_t>(n));
     py::array copy = py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data()).reshape(shape);
     copy.attr("setflags")(py::arg("write") = false);
     return copy;
@@ -154,7 +148,7 @@ class AdaptiveObject {
     std::vector<double> values;
     FieldPlace place{};
     Transfer how{};
-    std::vector<py::ssize_t> trailing;  // the shape without the number of places
+    std::vector<std::int64_t> shape;  // of the values at each place
   };
 
   Lengths lengths_from(const py::object& given) {
@@ -193,7 +187,7 @@ class AdaptiveObject {
     return {numbers_from(values.attr("reshape")(-1), name).values,
             place->second,
             way->second,
-            {shape.begin() + 1, shape.end()}};
+            {shape.begin() + static_cast<std::ptrdiff_t>(leading), shape.end()}};
   }
 
   [[nodiscard]] py::ssize_t places_of(FieldPlace place) const {
@@ -212,7 +206,6 @@ class AdaptiveObject {
   Together together_;
   Library mesh_;
   py::object copy_;
-  std::map<std::string, std::vector<py::ssize_t>> trailing_;
   bool busy_ = false;
 };
 

@@ -128,16 +128,21 @@ class AdaptiveMesh {
                                                        double order = 1) const;
 
   /// Adds a field with the same number of values at each place, place by place, that adapt() carries along. Replaces a
-  /// field of that name. Throws Error if the number of values is no multiple of that of places, and for interpolation
-  /// at triangles or corners.
+  /// field of that name. `shape`: of the values at each place, for those who look at a file of save(), {2, 2} for a
+  /// matrix. Throws Error if the number of values is no multiple of that of places, or another one than the shape's,
+  /// and for interpolation at triangles or corners.
   void attach(const std::string& name, std::vector<double> values, FieldPlace place = FieldPlace::kPoints,
-              Transfer how = Transfer::kInterpolate);
+              Transfer how = Transfer::kInterpolate, std::vector<std::int64_t> shape = {});
   /// Throws Error if there is no such field.
   void detach(const std::string& name);
   /// The values of a field on the present mesh, to be read and changed; valid until the next call of adapt() or
   /// attach(). Throws Error if there is no such field.
   [[nodiscard]] std::span<double> field(const std::string& name);
   [[nodiscard]] std::span<const double> field(const std::string& name) const;
+
+  /// The shape of a field's values at each place. Where attach() was told none: {} for one, {n} for several. Throws
+  /// Error if there is no such field.
+  [[nodiscard]] std::vector<std::int64_t> shape(const std::string& name) const;
 
   /// The names of all fields, ascending, each with its place.
   [[nodiscard]] std::map<std::string, FieldPlace> fields() const;

@@ -4,9 +4,16 @@
 #include <utility>
 
 #include "adapt/shared_points.hpp"
+#include "base/formatted.hpp"
 #include "driftmesh/error.hpp"
 
 namespace driftmesh::adapt {
+
+std::string shape_text(const std::vector<std::int64_t>& shape) {
+  std::string text;
+  for (const std::int64_t n : shape) text += (text.empty() ? "" : ", ") + std::to_string(n);
+  return "(" + text + ")";
+}
 
 const char* words_of(FieldPlace place) {
   if (place == FieldPlace::kPoints) return "points";
@@ -27,6 +34,17 @@ Field make_field(const Mesh& mesh, const std::string& name, std::vector<double> 
                 ", which are not interpolated; let their integrals be conserved");
   const std::size_t components = places == 0 ? 0 : values.size() / places;
   return {place, how, components, std::move(values)};
+}
+
+void require_shape(const std::string& name, const std::vector<std::int64_t>& shape, std::size_t components) {
+  std::size_t left = components;
+  for (const std::int64_t n : shape) {
+    const bool divides = n > 0 && left % static_cast<std::size_t>(n) == 0;
+    left = divides ? left / static_cast<std::size_t>(n) : 0;
+  }
+  if (left == 1) return;
+  throw Error(formatted("field '{}' has {} values at each place, which have no shape {}; give a shape of so many", name,
+                        components, shape_text(shape)));
 }
 
 void take_from_owners(Fields& fields, const DistributedPiece& piece, Ranks& ranks) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -23,6 +24,13 @@ struct Field {
 };
 using Fields = std::map<std::string, Field>;
 
+/// Of the values that a field has at each place, as a caller sees them: {} for a number, {2, 2} for a matrix. None: {}
+/// for one value, {n} for several.
+using Shapes = std::map<std::string, std::vector<std::int64_t>>;
+
+/// "(2, 2)".
+[[nodiscard]] std::string shape_text(const std::vector<std::int64_t>& shape);
+
 /// "points", "triangles" or "corners of triangles".
 [[nodiscard]] const char* words_of(FieldPlace place);
 
@@ -30,6 +38,9 @@ using Fields = std::map<std::string, Field>;
 /// the number of components is 0: others know it.
 [[nodiscard]] Field make_field(const Mesh& mesh, const std::string& name, std::vector<double> values, FieldPlace place,
                                Transfer how);
+
+/// Throws Error unless values of this shape are so many.
+void require_shape(const std::string& name, const std::vector<std::int64_t>& shape, std::size_t components);
 
 /// Gives fields at points that ranks share the values of the points' owners on all of them. Collective.
 void take_from_owners(Fields& fields, const DistributedPiece& piece, Ranks& ranks);

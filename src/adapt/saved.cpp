@@ -34,6 +34,10 @@ Bytes bytes_of(const SavedHead& head) {
   writer.array(plan_for_file(head.plan));
   writer.array(pslg_to_bytes(head.pslg));
   writer.array(head.more);
+  for (const auto& [name, shape] : head.shapes) {
+    writer.text(name);
+    writer.array(shape);
+  }
   return writer.take();
 }
 
@@ -56,7 +60,13 @@ SavedHead head_from(const Bytes& bytes) {
   reader.array(plan);
   reader.array(pslg);
   reader.array(head.more);
-  reader.end();
+  while (!reader.at_end()) {  // files of older programs have no shapes
+    const std::string name = reader.text();
+    const auto field = head.fields.find(name);
+    if (field == head.fields.end()) throw Error("it has a shape of a field '" + name + "' that it does not have");
+    reader.array(head.shapes[name]);
+    require_shape(name, head.shapes[name], field->second.components);
+  }
   head.plan = plan_from_bytes(plan, 1);
   head.pslg = pslg_from_bytes(pslg);
   return head;

@@ -23,8 +23,9 @@ struct SavedHead {
   Pslg pslg;
   AdaptiveOptions options;
   std::int64_t generation = 0;
-  Fields fields;  ///< without values
-  Bytes more;     ///< what only the caller knows
+  Fields fields;    ///< without values
+  Bytes more;       ///< what only the caller knows
+  Shapes shapes{};  ///< of some fields
 };
 
 /// Parcels to be saved.

@@ -67,6 +67,32 @@ std::size_t same_components(const std::string& name, std::size_t own, Ranks& ran
   return known == of_ranks.end() ? 0 : static_cast<std::size_t>(*known);
 }
 
+/// The shape that all ranks give which have any values. It is known to fit them.
+std::vector<std::int64_t> same_shape(const std::string& name, const std::vector<std::int64_t>& own, bool any,
+                                     Ranks& ranks) {
+  ByteWriter writer;
+  if (any) writer.array(own);
+  const std::vector<Bytes> of_ranks = ranks.bytes_of_all(writer.take());
+  const auto known = std::ranges::find_if(of_ranks, [](const Bytes& bytes) { return !bytes.empty(); });
+  if (known == of_ranks.end()) return {};
+  const auto shape_from = [](const Bytes& bytes) {
+    std::vector<std::int64_t> shape;
+    ByteReader(bytes).array(shape);
+    return shape;
+  };
+  ranks.agree([&] {
+    const auto other =
+        std::find_if(known, of_ranks.end(), [&](const Bytes& bytes) { return !bytes.empty() && bytes != *known; });
+    if (other != of_ranks.end())
+      throw Error(
+          formatted("attach: field '{}' has values of shape {} at each place on rank {}, and of shape {} on "
+                    "rank {}; give the same shape on each rank",
+                    name, shape_text(shape_from(*known)), known - of_ranks.begin(), shape_text(shape_from(*other)),
+                    other - of_ranks.begin()));
+  });
+  return shape_from(*known);
+}
+
 std::string words_of(FieldPlace place, Transfer how) {
   return std::string("at ") + adapt::words_of(place) +
          (how == Transfer::kConserve ? ", conserving" : ", by interpolation");
@@ -119,7 +145,8 @@ Session::Session(Saved saved, std::function<void(Mesh&)> finish, const Means& me
     : plan_(std::move(saved.head.plan)),
       pslg_(std::move(saved.head.pslg)),
       options_(saved.head.options),
-      finish_(std::move(finish)) {
+      finish_(std::move(finish)),
+      shapes_(std::move(saved.head.shapes)) {
   number_ = number_of_rank_0(means.ranks);
   report_.generation = saved.head.generation;
   Parts parts(plan_.decomposition.size());
@@ -142,7 +169,8 @@ void Session::save(const std::string& path, Bytes more, const Means& means) {
                  .options = options_,
                  .generation = report_.generation,
                  .fields = fields_without_values(fields_),
-                 .more = std::move(more)};
+                 .more = std::move(more),
+                 .shapes = shapes_};
   adapt::save(path, head,
               {.here = present_.here,
                .size = [&](SubdomainId s) { return packed_size(present_, s, fields_); },
@@ -353,12 +381,19 @@ Holding Session::placed(Holding made, const Decomposition& decomposition, const 
 }
 
 void Session::attach(const std::string& name, std::vector<double> values, FieldPlace place, Transfer how,
-                     const Means& means) {
+                     const Means& means, std::vector<std::int64_t> shape) {
   require_same_call("attach, with field '" + name + "' " + words_of(place, how), means.ranks);
   Field field;
-  means.ranks.agree([&] { field = make_field(present_.piece.mesh, name, std::move(values), place, how); });
+  means.ranks.agree([&] {
+    field = make_field(present_.piece.mesh, name, std::move(values), place, how);
+    if (!shape.empty() && field.components > 0) require_shape(name, shape, field.components);
+  });
+  const bool any = field.components > 0;
   field.components = same_components(name, field.components, means.ranks);
+  shape = same_shape(name, shape, any, means.ranks);
   fields_[name] = std::move(field);
+  shapes_.erase(name);
+  if (!shape.empty()) shapes_[name] = std::move(shape);
 }
 
 Field& Session::find_field(const std::string& name) {
@@ -371,6 +406,14 @@ void Session::detach(const std::string& name, const Means& means) {
   require_same_call("detach, with field '" + name + "'", means.ranks);
   means.ranks.agree([&] { (void)find_field(name); });
   fields_.erase(name);
+  shapes_.erase(name);
+}
+
+std::vector<std::int64_t> Session::shape(const std::string& name) {
+  const std::size_t components = find_field(name).components;
+  if (const auto known = shapes_.find(name); known != shapes_.end()) return known->second;
+  if (components == 1) return {};
+  return {static_cast<std::int64_t>(components)};
 }
 
 std::span<double> Session::field(const std::string& name) {

@@ -68,10 +68,13 @@ class Session {
   [[nodiscard]] std::vector<double> lengths_from_error(std::span<const double> indicators, double target, double order,
                                                        const Means& means) const;
 
-  void attach(const std::string& name, std::vector<double> values, FieldPlace place, Transfer how, const Means& means);
+  void attach(const std::string& name, std::vector<double> values, FieldPlace place, Transfer how, const Means& means,
+              std::vector<std::int64_t> shape = {});
   void detach(const std::string& name, const Means& means);
   [[nodiscard]] std::span<double> field(const std::string& name);
   [[nodiscard]] const Fields& fields() const { return fields_; }
+  /// Of the values of a field at each place; see Shapes.
+  [[nodiscard]] std::vector<std::int64_t> shape(const std::string& name);
 
   /// Whether the piece before each call of adapt() is kept, from the next one on. Not collective.
   void keep_old(bool keep);
@@ -121,6 +124,7 @@ class Session {
   AdaptReport report_;
   Stayed stayed_;
   Fields fields_;
+  Shapes shapes_;
   Spent spent_;  // on the present mesh
   bool keeps_old_ = false;
   std::optional<DistributedPiece> old_;

@@ -70,8 +70,9 @@ std::vector<double> AdaptiveMesh::lengths_from_error(std::span<const double> ind
   return impl_->core.session().lengths_from_error(indicators, target, order, impl_->core.means(impl_->alone));
 }
 
-void AdaptiveMesh::attach(const std::string& name, std::vector<double> values, FieldPlace place, Transfer how) {
-  impl_->core.session().attach(name, std::move(values), place, how, impl_->core.means(impl_->alone));
+void AdaptiveMesh::attach(const std::string& name, std::vector<double> values, FieldPlace place, Transfer how,
+                          std::vector<std::int64_t> shape) {
+  impl_->core.session().attach(name, std::move(values), place, how, impl_->core.means(impl_->alone), std::move(shape));
 }
 
 void AdaptiveMesh::detach(const std::string& name) {
@@ -84,6 +85,10 @@ std::span<double> AdaptiveMesh::field(const std::string& name) {
 
 std::span<const double> AdaptiveMesh::field(const std::string& name) const {
   return impl_->core.session().field(name);
+}
+
+std::vector<std::int64_t> AdaptiveMesh::shape(const std::string& name) const {
+  return impl_->core.session().shape(name);
 }
 
 std::map<std::string, FieldPlace> AdaptiveMesh::fields() const {

@@ -386,6 +386,23 @@ TEST_CASE("wrong use on one rank is one clear error on all, and changes nothing"
     };
     CHECK(mentions(attached("u", odd ? points + 1 : points), {"rank 1", "'u'", "the same number for each"}));
     CHECK(mentions(attached("u", odd ? 2 * points : points), {"'u'", "rank 0", "rank 1", "values"}));
+    const auto shaped = [&](std::size_t each, const std::vector<std::int64_t>& shape) {
+      return error_text([&] {
+        session.attach("w", std::vector<double>(each * points), FieldPlace::kPoints, Transfer::kInterpolate, means,
+                       shape);
+      });
+    };
+    CHECK(mentions(shaped(4, odd ? std::vector<std::int64_t>{4, 1} : std::vector<std::int64_t>{2, 2}),
+                   {"'w'", "shape (2, 2) at each place on rank 0", "(4, 1) on rank 1"}));
+    CHECK(mentions(shaped(4, {2, 3}), {"'w'", "4 values", "no shape (2, 3)"}));
+    CHECK(shaped(4, {4, 1}) == "no error");
+    CHECK(session.shape("w") == std::vector<std::int64_t>{4, 1});
+    CHECK(shaped(4, {}) == "no error");
+    CHECK(session.shape("w") == std::vector<std::int64_t>{4});
+    CHECK(shaped(1, {}) == "no error");
+    CHECK(session.shape("w").empty());
+    session.detach("w", means);
+    CHECK(mentions(error_text([&] { static_cast<void>(session.shape("w")); }), "no field 'w'"));
     CHECK(mentions(attached(odd ? "v" : "u", points), {"the same call", "'u'", "'v'"}));
     CHECK(mentions(attached("u", points, odd ? Transfer::kConserve : Transfer::kInterpolate), "conserving"));
     CHECK(mentions(error_text([&] { (void)session.field("u"); }), "no field 'u'"));

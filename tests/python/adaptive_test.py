@@ -136,6 +136,32 @@ class Adaptive(unittest.TestCase):
         np.testing.assert_array_equal(plate.mesh.triangles, again.mesh.triangles)
         np.testing.assert_array_equal(plate.field("u"), again.field("u"))
 
+    def test_a_loaded_field_has_its_shape(self):
+        plate = driftmesh.AdaptiveMesh(PLATE, max_area=0.01)
+        points, count, random = len(plate.mesh.points), len(plate.mesh.triangles), np.random.default_rng(3)
+        shapes = {"points": [(), (1,), (2,), (2, 2), (1, 3, 1)], "triangles": [(), (1,), (3,)], "corners": [(), (1,), (2,)]}
+        for where, trailing in shapes.items():
+            places = {"points": (points,), "triangles": (count,), "corners": (count, 3)}[where]
+            for shape in trailing:
+                plate.attach(f"{where}{shape}", random.random(places + shape), where=where, transfer="conserve")
+        plate.attach("now a number", np.ones((points, 1)))
+        plate.attach("now a number", np.ones(points))
+        plate.attach("gone", np.ones((points, 1)))
+        plate.detach("gone")
+        self.assertEqual(plate.field("points(2, 2)").shape, (points, 2, 2))
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "plate.h5"
+            plate.save(path)
+            again = driftmesh.AdaptiveMesh.load(path)
+            again.save(path)
+            again = driftmesh.AdaptiveMesh.load(path)
+        self.assertEqual(again.fields, plate.fields)
+        for mesh in (plate, again):
+            self.assertEqual(mesh.field("now a number").ndim, 1)
+            mesh.adapt(np.full(points, 0.05))
+        for name in plate.fields:
+            np.testing.assert_array_equal(again.field(name), plate.field(name), name, strict=True)
+
     def test_not_within_itself(self):
         plate = driftmesh.AdaptiveMesh(PLATE, max_area=0.01, size_resolution=100)
         before = plate.mesh.triangles.copy()

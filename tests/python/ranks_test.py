@@ -213,7 +213,7 @@ class Adaptive(unittest.TestCase):
 
     def make(self, **options):
         flow = driftmesh.DistributedAdaptiveMesh(WORLD, PIPE if FIRST else None, **({"max_area": 50.0, "threads": 1} | options))
-        flow.attach("u", np.sin(flow.piece.mesh.points), transfer="conserve")
+        flow.attach("u", np.sin(flow.piece.mesh.points)[..., None], transfer="conserve")
         flow.attach("mass", np.ones((len(flow.piece.mesh.triangles), 3)), where="corners", transfer="conserve")
         return flow
 
@@ -225,7 +225,7 @@ class Adaptive(unittest.TestCase):
 
     def test_the_same_as_on_one_process(self):
         alone = driftmesh.AdaptiveMesh(PIPE, max_area=50.0, threads=1)
-        alone.attach("u", np.sin(alone.mesh.points), transfer="conserve")
+        alone.attach("u", np.sin(alone.mesh.points)[..., None], transfer="conserve")
         flow = self.make()
         for radius in (5, 8):
             alone.adapt(self.ring(alone.mesh, radius))
@@ -246,7 +246,9 @@ class Adaptive(unittest.TestCase):
             WORLD.barrier()
         self.check_as_alone(again, alone)
         self.check_as_alone(again, here)
-        self.assertEqual(again.field("mass").shape[1], 3)
+        for loaded, mesh in ((again, again.piece.mesh), (here, here.mesh)):
+            self.assertEqual(loaded.field("mass").shape, (len(mesh.triangles), 3))
+            self.assertEqual(loaded.field("u").shape, (len(mesh.points), 2, 1))
         alone.adapt(lambda x, y: 1 + 0.2 * abs(x))
         again.adapt(lambda x, y: 1 + 0.2 * abs(x))
         self.check_as_alone(again, alone)
@@ -260,6 +262,9 @@ class Adaptive(unittest.TestCase):
                 flow.adapt(wrong if last else np.full(count, 5.0))
         with self.assertRaises((driftmesh.Error, ValueError)):
             flow.attach("v", np.ones(count + 1 if last else count))
+        if WORLD.size > 1:
+            with self.assertRaisesRegex(driftmesh.Error, r"'v' has values of shape \(4\) .* on rank 0, and of shape \(2, 2\)"):
+                flow.attach("v", np.ones((count, 2, 2) if last else (count, 4)))
         with self.assertRaises((driftmesh.Error, ZeroDivisionError)):
             flow.adapt(lambda x, y: 1 / 0 if last else 5.0)
         with self.assertRaises((driftmesh.Error, TypeError)):

@@ -176,6 +176,22 @@ TEST_CASE("a saved session is refused that has other parts than it says, or come
   const auto swapped = [&](SubdomainId s) { return parcel(SubdomainId{3 - to_int(s)}); };
   save_by(swapped);
   CHECK(mentions(refusal(), "subdomain 0 is another one"));
+
+  const auto parcel_with_fields = [&](SubdomainId s) {
+    return pack(generation, s, without_values(head.fields, generation.piece));
+  };
+  head.fields["u"].components = 4;
+  head.shapes["u"] = {2, 2};
+  save_by(parcel_with_fields);
+  CHECK(read_saved(path, alone).head.shapes == head.shapes);
+  for (const std::vector<std::int64_t>& wrong : {std::vector<std::int64_t>{}, {3}, {2, 4}, {-2, -2}, {0}, {2, 2, 0}}) {
+    head.shapes["u"] = wrong;
+    save_by(parcel_with_fields);
+    CHECK(mentions(refusal(), "field 'u' has 4 values at each place, which have no shape"));
+  }
+  head.shapes = {{"v", {2, 2}}};
+  save_by(parcel_with_fields);
+  CHECK(mentions(refusal(), "it has a shape of a field 'v' that it does not have"));
 }
 
 TEST_CASE("vertices that a bound on areas needs stay, however much lengths grow") {

@@ -66,14 +66,16 @@ class DistributedAdaptiveMesh {
                                                        double order = 1) const;
 
   /// As AdaptiveMesh::attach, with this rank's values. Where ranks share a point, the value of its owner
-  /// (DistributedPiece::owners) counts.
+  /// (DistributedPiece::owners) counts. The shape of a rank without places does not count.
   void attach(const std::string& name, std::vector<double> values, FieldPlace place = FieldPlace::kPoints,
-              Transfer how = Transfer::kInterpolate);
+              Transfer how = Transfer::kInterpolate, std::vector<std::int64_t> shape = {});
   void detach(const std::string& name);
   /// The values of a field on the present piece, to be read and changed; valid until the next call of adapt() or
   /// attach(). Throws Error if there is no such field.
   [[nodiscard]] std::span<double> field(const std::string& name);
   [[nodiscard]] std::span<const double> field(const std::string& name) const;
+
+  [[nodiscard]] std::vector<std::int64_t> shape(const std::string& name) const;
 
   /// Tells how many seconds this rank has worked on the present mesh: once adapt() has made the next one, subdomains
   /// move with their fields where the slowest rank would take more than 1.05 times the mean, so that ranks take the

@@ -119,9 +119,9 @@ std::vector<double> DistributedAdaptiveMesh::lengths_from_error(std::span<const 
 }
 
 void DistributedAdaptiveMesh::attach(const std::string& name, std::vector<double> values, FieldPlace place,
-                                     Transfer how) {
+                                     Transfer how, std::vector<std::int64_t> shape) {
   impl_->together([&](Ranks& ranks) {
-    impl_->core.session().attach(name, std::move(values), place, how, impl_->core.means(ranks));
+    impl_->core.session().attach(name, std::move(values), place, how, impl_->core.means(ranks), std::move(shape));
   });
 }
 
@@ -143,6 +143,10 @@ std::span<double> DistributedAdaptiveMesh::field(const std::string& name) {
 
 std::span<const double> DistributedAdaptiveMesh::field(const std::string& name) const {
   return impl_->core.session().field(name);
+}
+
+std::vector<std::int64_t> DistributedAdaptiveMesh::shape(const std::string& name) const {
+  return impl_->core.session().shape(name);
 }
 
 std::map<std::string, FieldPlace> DistributedAdaptiveMesh::fields() const {
