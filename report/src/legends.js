@@ -1,10 +1,18 @@
-import { css, fills, kShades, ofCategory, stops } from "./colors.js";
+import { css, fills, kShades, ofCategory, onScale, stops } from "./colors.js";
 import { element, number } from "./elements.js";
+import { isFlat } from "./mesh_values.js";
 
 /** A strip of the colors from the least to the greatest value. */
 export function scaleLegend(least, greatest, what) {
   const strip = element("span", { class: "strip", style: `background: linear-gradient(to right, ${stops.map(css).join(",")})` });
   return [`${what} ${number(least)}`, strip, number(greatest)];
+}
+
+/** The same for what may be one value, or none: not a number. */
+export function valuesLegend(range, what) {
+  if (range.some(Number.isNaN)) return [`${what}: no value is a finite number`];
+  if (!isFlat(range)) return scaleLegend(...range, what);
+  return [what, element("span", { class: "chip", style: `background: ${css(onScale(0.5))}` }), number((range[0] + range[1]) / 2)];
 }
 
 /** A chip for each category, if not too many. */

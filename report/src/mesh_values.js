@@ -69,6 +69,18 @@ export function rangeOf(values) {
   return [Math.min(least, greatest), greatest];
 }
 
+/** Whether values from `least` to `greatest`, which are single precision, differ by no more than their rounding. */
+export function isFlat([least, greatest]) {
+  return !(greatest - least > 2 ** -23 * Math.max(Math.abs(least), Math.abs(greatest)));
+}
+
+/** The values for the two ends of the scale of colors: those of the range, or further apart where that is flat or nothing. */
+export function endsOfScale(range) {
+  if (!isFlat(range)) return range;
+  const middle = (range[0] + range[1]) / 2 || 0, wide = Math.abs(middle) / 1000 || 1;
+  return [middle - wide, middle + wide];
+}
+
 /** How many values there are in each of some intervals: of equal length, or of equal ratio if `logarithmic`. */
 export function histogram(values, [low, high], bins, logarithmic) {
   const to = logarithmic ? Math.log : (x) => x, back = logarithmic ? Math.exp : (x) => x;

@@ -73,7 +73,7 @@ export class MeshView {
   }
 
   /** Colors triangles by their values (Float32Array) on a scale between the ends of `range`, or linearly by those at points. What is not
-   * a number is gray. */
+   * a finite number is gray. */
   byValues(values, range, atPoints = false) {
     this.color(values, new Uint32Array(values.buffer, values.byteOffset, values.length), range, kNone, atPoints);
   }
@@ -115,7 +115,7 @@ export class MeshView {
 
   /** The color of a cell of an image, null where there is nothing. */
   colorOf(value) {
-    if (this.range) return Number.isNaN(value) ? null : onScale((value - this.range[0]) / Math.max(this.range[1] - this.range[0], 1e-30));
+    if (this.range) return !Number.isFinite(value) ? null : onScale((value - this.range[0]) / Math.max(this.range[1] - this.range[0], 1e-30));
     return value < 0 ? null : ofCategory(this.shownLookup ? this.shownLookup[value] : value);
   }
 

@@ -1,8 +1,8 @@
 import { element, number, section } from "./elements.js";
-import { scaleLegend } from "./legends.js";
+import { valuesLegend } from "./legends.js";
 import { meshCanvas } from "./mesh_canvas.js";
 import { sortTriangles } from "./mesh_levels.js";
-import { intoSquare, measure, valueAt } from "./mesh_values.js";
+import { endsOfScale, intoSquare, measure, valueAt } from "./mesh_values.js";
 import { player } from "./replay.js";
 
 const kDelay = 100;  // milliseconds from one frame to the next
@@ -60,7 +60,7 @@ export function seriesSection(series) {
     if (view && next !== mesh) view.show(next);
     mesh = next;
     shown.view().marked = -1;
-    shown.view().byValues(values, range, series.atPoints);
+    shown.view().byValues(values, endsOfScale(range), series.atPoints);
     const { time } = frames[k];
     clock.textContent = `Frame ${number(k + 1)} of ${number(last + 1)}${time === null ? "" : `, time ${number(time, 6)}`}, `
       + `${number(mesh.order.length)} triangles`;
@@ -91,7 +91,7 @@ export function seriesSection(series) {
     does();
   });
   place.append(element("div", { class: "controls" }, controls.place, clock, element("label", {}, edges, " Edges"),
-    element("span", { class: "legend", id: "series-legend" }, ...scaleLegend(...range, field))),
+    element("span", { class: "legend", id: "series-legend" }, ...valuesLegend(range, field))),
   element("div", { class: "mesh" }, shown.canvas), shown.said);
   return { place, start: () => show(0) };
 }

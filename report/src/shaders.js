@@ -75,7 +75,7 @@ void main() {
   float edge = 1.0 - min(near.x, min(near.y, near.z));
   float height = 1.0 / max(change.x, max(change.y, change.z));  // the triangle's least one, in pixels
   float large = pass == 2 || !edges ? 0.0 : smoothstep(4.0, 16.0, height);
-  vec3 shown = !scaled || pass == 2 ? color.rgb : isnan(value) ? vec3(0.85) : onScale((value - range.x) / max(range.y - range.x, 1e-30));
+  vec3 shown = !scaled || pass == 2 ? color.rgb : isnan(value) || isinf(value) ? vec3(0.85) : onScale((value - range.x) / max(range.y - range.x, 1e-30));
   made = vec4(mix(shown, vec3(0.1), edge * large * 0.8), 1);
 }`;
 

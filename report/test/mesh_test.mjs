@@ -139,3 +139,20 @@ test("values at points are linear in triangles", () => {
   assert.equal(values.valueAt(mesh, plane, 1, [1.5, 0.75]), 7.25);
   assert.ok(Number.isNaN(values.valueAt(mesh, Float32Array.from([NaN, 9, 4, 8]), 0, [0.5, 0.25])));
 });
+
+test("a range that is mere rounding is flat, and its value in the middle of the scale", () => {
+  const next = (x) => {
+    const float = Float32Array.of(x);
+    ++new Int32Array(float.buffer)[0];
+    return float[0];
+  };
+  for (const value of [7, 1, 1.999, 1e-30, 3e38]) {
+    for (const range of [[value, value], [value, next(value)], [-next(value), -value]]) {
+      assert.ok(values.isFlat(range), `${range}`);
+      const ends = values.endsOfScale(range).map(Math.fround);
+      for (const x of range) assert.ok(Math.abs((x - ends[0]) / (ends[1] - ends[0]) - 0.5) < 1e-3, `${range} ${ends}`);
+    }
+    for (const range of [[value, value * (1 + 1e-6)], [-value, value], [0, value]]) assert.deepEqual(values.endsOfScale(range), range);
+  }
+  for (const range of [[0, 0], [NaN, NaN]]) assert.deepEqual(values.endsOfScale(range), [-1, 1]);
+});

@@ -40,6 +40,11 @@ function makeSeries() {
   });
   writeFileSync(file("u.pvd"), `<VTKFile type="Collection"><Collection>${sets.join("")}</Collection></VTKFile>`);
   driftmesh("report", file("u.pvd"), "--field", "u", "-o", file("series.html"));
+  const fields = { flat: (x, y) => 7 + 4e-7 * ((x * 97 + y * 31) % 1), lost: (x) => (x > 0.5 ? "nan" : "inf") };
+  for (const [name, u] of Object.entries(fields)) {
+    writeFileSync(file(`${name}.vtu`), frameOf(9, u));
+    driftmesh("report", file(`${name}.vtu`), "--field", "u", "-o", file(`${name}.html`));
+  }
 }
 
 function frameOf(cells, u) {
@@ -207,6 +212,28 @@ async function checkReplay(page) {
   assert.notEqual(await colors(), before);
 }
 
+/** How many there are in the middle of a canvas. */
+const colorsIn = (page, canvas) => page.$eval(canvas, (shown) => {
+  const copy = document.createElement("canvas");
+  copy.width = shown.width, copy.height = shown.height;
+  const context = copy.getContext("2d");
+  context.drawImage(shown, 0, 0);
+  const { data } = context.getImageData(shown.width / 4, shown.height / 4, shown.width / 2, shown.height / 2);
+  return new Set(new Uint32Array(data.buffer)).size;
+});
+
+/** What is the same everywhere but for rounding has one color, and so has what is no number. */
+async function checkFlat(page) {
+  for (const [name, legend] of [["flat", "u7"], ["lost", "u: no value is a finite number"]]) {
+    await page.goto(pathToFileURL(resolve(file(`${name}.html`))).href, { timeout: 120000 });
+    await page.waitForSelector("body[data-ready=yes]", { timeout: 120000 });
+    assert.equal(await text(page, "#series-legend"), legend);
+    await page.click("#series-edges");
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    assert.equal(await colorsIn(page, "#series"), 1, name);
+  }
+}
+
 /** Frames are played, stepped through by keyboard, and pointed at, with the same colors for the same values. */
 async function checkSeries(page) {
   await page.goto(pathToFileURL(resolve(file("series.html"))).href, { timeout: 120000 });
@@ -230,14 +257,7 @@ async function checkSeries(page) {
   await page.keyboard.press("e");
   assert.equal(await page.$eval("#series-edges", (box) => box.checked), false);
   assert.notEqual(await atFrame(2, words[2]), last);
-  assert.equal(await page.$eval("#series", (canvas) => {
-    const copy = document.createElement("canvas");
-    copy.width = canvas.width, copy.height = canvas.height;
-    const context = copy.getContext("2d");
-    context.drawImage(canvas, 0, 0);
-    const { data } = context.getImageData(canvas.width / 4, canvas.height / 4, canvas.width / 2, canvas.height / 2);
-    return new Set(new Uint32Array(data.buffer)).size;
-  }), 1, "without edges one value has one color");
+  assert.equal(await colorsIn(page, "#series"), 1, "without edges one value has one color");
   await page.keyboard.press(" ");
   await atFrame(2, words[2]);
   await wait(page, () => document.getElementById("series-play").textContent === "Play");
@@ -279,6 +299,7 @@ try {
   await page.screenshot({ path: file("phone.png"), fullPage: true });
   await page.setViewport({ width: 1280, height: 1000 });
   await checkSeries(page);
+  await checkFlat(page);
   assert.deepEqual(problems, []);
 } finally {
   await browser.close();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/xml_text.hpp"
@@ -51,13 +52,14 @@ void PackedFrames::add_mesh(const Mesh& mesh) {
 
 std::string PackedFrames::blocks() const {
   if (frames_ == 0) return {};
+  constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
   const bool has_values = least_ <= most_;
   const std::vector<float> box = near_the_middle({box_.low, box_.high}, middle_);
   return fmt::format(
              "<script type=\"text/plain\" data-series=\"{}\" data-field=\"{}\" data-at=\"{}\" data-middle=\"{} {}\" "
              "data-box=\"{}\" data-range=\"{} {}\"></script>\n",
              escaped(name_), escaped(field_), at_points_ ? "points" : "triangles", middle_.x, middle_.y,
-             fmt::join(box, " "), has_values ? least_ : 0, has_values ? most_ : 0) +
+             fmt::join(box, " "), has_values ? least_ : kNothing, has_values ? most_ : kNothing) +
          packed_;
 }
 
