@@ -47,6 +47,10 @@ AdaptedMesh adapted(Mesh mesh, patch::Order order, const PartOptions& options) {
   order.options = options.sizes;
   order.min_angle = options.min_angle;
   order.threads = threads_or_cores(options.threads);
+  if (order.domain != nullptr && !options.conserve.empty())
+    throw Error(
+        "the integral of '" + options.conserve.front() +
+        "', which PartOptions::conserve names, cannot stay where the domain becomes another one; interpolate it");
   std::vector<adapt::Field> fields = fields_of(mesh, options.conserve);
   patch::Remade remade = patch::remake(std::move(mesh), std::move(fields), std::move(order));
   patch::give_point_data(remade.mesh, remade.fields);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,8 @@ struct AdaptCommand {
   std::string only;
   std::string outline;
   double tolerance = 0;
-  double threshold = 1.2;
+  static constexpr double kThreshold = 1.2;
+  std::optional<double> threshold;  ///< nothing: kThreshold
   std::string map;
   double angle = defaults::kMinAngle;
   AdaptiveOptions options;

@@ -44,7 +44,9 @@ std::string adapt_summary(const patch::Remade& remade, const patch::Unmet& unmet
     text += fmt::format("margin         {} triangles around {}, up to {:.4g} away\n", report.margin,
                         command.outline.empty() ? "what was asked for" : "what touches it", report.margin_width);
   text += "time          ";
-  for (const job::StageTime& stage : stages) text += fmt::format(" {} {:.2f} s", stage.name, stage.seconds);
+  for (const job::StageTime& stage : stages)
+    text += fmt::format(" {} {:.2f} s", stage.name == "read" && !command.outline.empty() ? "read outline" : stage.name,
+                        stage.seconds);
   return text + "\nfile           " + command.output + "\n";
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -83,12 +84,18 @@ std::vector<double> lengths_of(const NamedFields& fields, const AdaptCommand& co
 
 /// Data at points and at triangles may have one name; both are meant then.
 void apply_transfers(NamedFields& fields, const AdaptCommand& command) {
+  std::set<std::string> names;
   for (const std::string& transfer : command.transfers) {
     const std::size_t equals = transfer.rfind('=');
     const std::string how = equals == std::string::npos ? "" : transfer.substr(equals + 1);
     if (!how.empty() && how != "conserve" && how != "interpolate")
       throw cli::UsageError("--transfer is '" + transfer + "'; it is NAME, NAME=interpolate or NAME=conserve");
     const std::string name = transfer.substr(0, equals);
+    if (!names.insert(name).second) throw cli::UsageError("--transfer names '" + name + "' twice; give it once");
+    if (how == "conserve" && !command.outline.empty())
+      throw InputError({command.mesh},
+                       "the integral of '" + name + "' cannot stay where the domain becomes another one by --outline",
+                       "interpolate it");
     bool any = false;
     for (patch::NamedField& named : fields) {
       if (named.name != name) continue;
@@ -126,7 +133,24 @@ std::optional<Box> box_from(const std::string& text) {
 std::optional<double> region_named(const Mesh& mesh, const std::string& text) {
   for (const auto& [attribute, name] : mesh.names.regions)
     if (name == text) return attribute;
-  return region_from(text);
+  const std::optional<double> region = region_from(text);
+  return region && std::ranges::find(mesh.regions, *region) != mesh.regions.end() ? region : std::nullopt;
+}
+
+/// "the regions 1 'sand', 2", or "no regions".
+std::string list_of_regions(const Mesh& mesh) {
+  constexpr std::size_t kMost = 20;
+  const std::set<double> regions(mesh.regions.begin(), mesh.regions.end());
+  std::vector<std::string> words;
+  for (const double region : regions) {
+    if (words.size() == kMost) {
+      words.push_back(fmt::format("... {} in all", regions.size()));
+      break;
+    }
+    const auto name = mesh.names.regions.find(region);
+    words.push_back(fmt::format("{}", region) + (name == mesh.names.regions.end() ? "" : " '" + name->second + "'"));
+  }
+  return words.empty() ? "no regions" : fmt::format("the regions {}", fmt::join(words, ", "));
 }
 
 /// The triangles that --only names.
@@ -142,8 +166,8 @@ std::vector<bool> area_of(const Mesh& mesh, const AdaptCommand& command) {
     repair(input.pslg, only);
     inside = patch::triangles_in(mesh, input.pslg);
   } else {
-    throw cli::UsageError("--only is '" + only +
-                          "', which is no box x0,y0,x1,y1, no region of the mesh, and no file of polygons");
+    throw cli::UsageError("--only is '" + only + "', which is no box x0,y0,x1,y1, no region of " + command.mesh +
+                          " (it has " + list_of_regions(mesh) + "), and no file that exists");
   }
   if (std::ranges::find(inside, true) == inside.end())
     throw InputError({command.mesh}, "has no triangle in '" + only + "', which --only names",
@@ -166,27 +190,40 @@ class StageNotes final : public job::Watch {
 
 /// If more than half has to change, all does.
 patch::Unmet what_is_to_change(const Mesh& mesh, patch::Order& order, const AdaptCommand& command) {
+  const double threshold = command.threshold.value_or(AdaptCommand::kThreshold);
   patch::Unmet unmet;
   try {
     order.linked = patch::link(mesh);
-    unmet = patch::find_unmet(mesh, order.linked->triangulation, order.lengths, order.options, order.min_angle,
-                              command.threshold);
+    unmet =
+        patch::find_unmet(mesh, order.linked->triangulation, order.lengths, order.options, order.min_angle, threshold);
   } catch (const Error& error) {
     throw InputError(command.mesh + ": " + error.what());
   }
   const auto change = std::ranges::count(unmet.triangles, true);
-  if (command.threshold == 1 || 2 * change > static_cast<std::ptrdiff_t>(mesh.triangles.size()))
+  if (threshold == 1 || 2 * change > static_cast<std::ptrdiff_t>(mesh.triangles.size()))
     unmet.triangles.assign(mesh.triangles.size(), true);
   return unmet;
 }
 
-void run_adapt(const AdaptCommand& command) {
-  if (command.lengths.empty() && command.options.shortest == 0 && std::isinf(command.options.longest) &&
-      command.outline.empty())
+void require_consistent(const AdaptCommand& command) {
+  const AdaptiveOptions& options = command.options;
+  const bool has_lengths = !command.lengths.empty() || options.shortest > 0 || !std::isinf(options.longest);
+  if (!has_lengths && command.only.empty() && command.outline.empty())
     throw cli::UsageError(
-        "nothing says how long edges are to be; give --lengths, --max-length or --min-length, or a new --outline");
+        "nothing says what is to change; give --lengths, --max-length or --min-length, or --only or a new --outline");
+  if (options.shortest > options.longest)
+    throw cli::UsageError(
+        fmt::format("--min-length is {}, which is more than --max-length {}", options.shortest, options.longest));
   if (command.outline.empty() && command.tolerance > 0)
     throw cli::UsageError("--outline-tolerance is for --outline, which is not given");
+  for (const auto& [option, value] : {std::pair{"--only", command.only}, std::pair{"--outline", command.outline}})
+    if (command.threshold && !value.empty())
+      throw cli::UsageError(std::string("--threshold is for all of a mesh, and ") + option +
+                            " says what is made anew; leave out one of them");
+}
+
+void run_adapt(const AdaptCommand& command) {
+  require_consistent(command);
   FileRegistry files;
   register_mesh_input(files, command.mesh, "MESH", command.reading);
   register_mesh_output(files, command.output, "--output");
@@ -196,7 +233,8 @@ void run_adapt(const AdaptCommand& command) {
     for (const std::string& file : input_files(command.outline)) files.reads(file, "--outline");
   StageNotes notes(!command.quiet);
   TriangleData data;
-  Mesh mesh = job::timed(notes, "read", [&] { return read_any_mesh(command.mesh, command.reading, data); });
+  const char* const reading = command.outline.empty() ? "read" : "read mesh";  // reading the outline is another stage
+  Mesh mesh = job::timed(notes, reading, [&] { return read_any_mesh(command.mesh, command.reading, data); });
   const std::size_t before = mesh.triangles.size();
   NamedFields named = take_data(mesh, std::move(data));
   patch::Order order{
@@ -311,9 +349,10 @@ std::vector<cli::Option> adapt_options(AdaptCommand& command) {
        .take = cli::into(command.options.longest, {.least = 0, .most = kMost, .above = true})},
       {.name = "threshold",
        .value = "FACTOR",
-       .help = "Without --only: where edges are not longer than wanted, and shorter by less than this factor, what is "
+       .help = "Without --only and --outline: where edges are not longer than wanted, and shorter by less than this "
+               "factor, what is "
                "there stays; 1: all is made anew",
-       .standard = "1.2",
+       .standard = fmt::format("{}", AdaptCommand::kThreshold),
        .take = cli::into(command.threshold, {1, kMost})},
       {.name = "gradation",
        .value = "GROWTH",

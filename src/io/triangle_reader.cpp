@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "base/read_file.hpp"
+#include "driftmesh/error.hpp"
 #include "io/read_checks.hpp"
 #include "io/triangle_format.hpp"
 #include "mesh/mesh_edges.hpp"
@@ -81,6 +82,9 @@ void take_out_separators(Mesh& mesh) {
 }  // namespace
 
 Mesh read_triangle_format(const std::string& stem) {
+  if (!std::filesystem::exists(stem + ".ele") && std::filesystem::exists(stem + ".poly"))
+    throw InputError({stem + ".poly", 0}, "is a domain and no mesh: there is no " + stem + ".ele with its triangles",
+                     "let driftmesh mesh make one of it");
   NodeTable nodes = read_node(stem + ".node");
   EleTable elements = read_ele(stem + ".ele", nodes);
   Mesh mesh;

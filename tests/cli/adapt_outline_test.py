@@ -106,6 +106,7 @@ class Changes(Outline):
         for new in text, poly([ISLAND, RING[1:] + RING[:1]], [[2] * 4, [1] * 4], [(2.7, 2.7)]):
             old, now, out = self.change(text, new)
             self.assertIn("the same as before", out)
+            self.assertRegex(out, r"time +read mesh \d.*s read outline \d")
             self.assertEqual(now[:2], old)
             self.assertEqual((self.folder / "map.csv").read_text(), "kind,new,old\n")
 

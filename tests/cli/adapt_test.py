@@ -198,6 +198,12 @@ class Part(Adapt):
         self.succeed("adapt", "old.vtu", "--lengths", "h", "--only", "1,1,2,2", "-o", "new.vtu")
         self.succeed("check", "new.vtu", "--angle", 20)
 
+    def test_lengths_are_those_that_are_there(self):
+        points, triangles = self.mesh("old.vtu", size=0.2)
+        self.succeed("adapt", "old.vtu", "--only", "1,1,3,3", "-o", "new.vtu")
+        self.succeed("check", "new.vtu", "--angle", 20)
+        self.assertLess(abs(len(self.read("new.vtu")[1]) / len(triangles) - 1), 0.25)
+
     def test_a_region_or_a_polygon(self):
         self.write("domain.poly", REGIONS)
         self.succeed("mesh", "domain.poly", "--area", 0.01, "--region-name", "20=sand", "-o", "old.vtu")
@@ -460,6 +466,15 @@ class Flaws(Adapt):
             self.succeed("adapt", "more.vtu", *asked, "-o", "new.vtu")
             self.succeed("check", "new.vtu", "--angle", 20)
 
+    def test_areas_that_are_not_there(self):
+        self.write("domain.poly", REGIONS)
+        self.succeed("mesh", "domain.poly", "--area", 0.2, "--region-name", "20=sand", "-o", "old.vtu")
+        for area in "4", "silt", "nope.geojson":
+            self.refuse("adapt", "old.vtu", "--max-length", 0.2, "--only", area, "-o", "new.vtu", code=2,
+                        says=[f"'{area}'", "no region of old.vtu (it has the regions 10, 20 'sand')", "no file that exists"])
+        self.mesh("plain.vtu")
+        self.refuse("adapt", "plain.vtu", "--max-length", 0.2, "--only", "4", "-o", "new.vtu", code=2, says=["it has no regions"])
+
 
 class Errors(Adapt):
     def test_help_lists_what_it_writes(self):
@@ -485,7 +500,19 @@ class Errors(Adapt):
         self.refuse("adapt", "old.vtu", "--lengths", "h", "--transfer", "w", "-o", "new.vtu", says=["'w'", "--transfer"])
         self.refuse("adapt", "old.vtu", "--lengths", "h", "--transfer", "h=sometimes", "-o", "new.vtu", code=2,
                     says=["sometimes", "conserve"])
-        self.refuse("adapt", "old.vtu", "-o", "new.vtu", code=2, says=["--lengths", "--max-length"])
+        self.refuse("adapt", "old.vtu", "-o", "new.vtu", code=2, says=["--lengths", "--max-length", "--only"])
+        self.refuse("adapt", "old.vtu", "--min-length", 1, "--max-length", 0.5, "-o", "new.vtu", code=2,
+                    says=["--min-length is 1", "--max-length 0.5"])
+        self.refuse("adapt", "old.vtu", "--lengths", "h", "--transfer", "h", "--transfer", "h=conserve", "-o", "new.vtu", code=2,
+                    says=["--transfer names 'h' twice"])
+        self.write("domain.poly", SQUARE)
+        for option, value in ("--only", "0,0,1,1"), ("--outline", "domain.poly"):
+            self.refuse("adapt", "old.vtu", "--lengths", "h", option, value, "--threshold", 1.2, "-o", "new.vtu", code=2,
+                        says=["--threshold", option])
+        self.refuse("adapt", "old.vtu", "--outline", "domain.poly", "--transfer", "h=conserve", "-o", "new.vtu",
+                    says=["old.vtu", "integral of 'h'", "--outline", "interpolate"])
+        self.refuse("adapt", "domain.poly", "--max-length", 1, "-o", "new.vtu",
+                    says=["domain.poly: is a domain and no mesh", "no domain.ele", "driftmesh mesh"])
         self.refuse("adapt", "old.vtu", "--max-length", 0.01, "--max-triangles", 1000, "-o", "new.vtu", code=3,
                     says=["1000"])
         self.refuse("adapt", "old.vtu", "--lengths", "h", "-o", "old.vtu", says=["old.vtu"])

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -100,7 +101,8 @@ TEST_CASE("a part, with lengths and point data") {
           doctest::Approx(2 * after.mesh.points[v].x - after.mesh.points[v].y).epsilon(1e-12));
   options.conserve = {"depth"};
   CHECK(adapt_part(before, part, options).mesh.triangles == after.mesh.triangles);
-  CHECK(error_text([&] { (void)adapt_outline(before, port(3.5), options); }).find("interpolate") != std::string::npos);
+  const std::string refused = error_text([&] { (void)adapt_outline(before, port(3.5), options); });
+  CHECK(mentions(refused, {"'depth'", "PartOptions::conserve", "interpolate"}));
   options.conserve = {"heat"};
   CHECK(error_text([&] { (void)adapt_part(before, part, options); }).find("'heat'") != std::string::npos);
   CHECK(error_text([&] { (void)adapt_part(before, std::vector{-1}); }).find("no triangle -1") != std::string::npos);
