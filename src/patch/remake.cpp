@@ -230,11 +230,13 @@ Remade remake(Mesh mesh, std::vector<adapt::Field> fields, Order order) {
   Neighborhood taken(mesh, inside);
   taken.grow(kLayers);
   for (int round = 0;; ++round) {
-    auto [part, before] = with_flaw_of(mesh, [&] {
+    LinkedPart linked = with_flaw_of(mesh, [&] {
       LinkedPart some = linked_part(mesh, taken, order.linked);
       require_counterclockwise(some.part);
       return some;
     });
+    const Part& part = linked.part;
+    Triangulation& before = linked.triangulation;
     Extent extent = extent_of(mesh, part, taken, inside);
     const OldPlaces old(part.mesh);
     if (order.domain != nullptr) apply(change, part, old, extent);
