@@ -1,6 +1,7 @@
 #include "adapt/fields.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "adapt/shared_points.hpp"
@@ -45,6 +46,22 @@ void require_shape(const std::string& name, const std::vector<std::int64_t>& sha
   if (left == 1) return;
   throw Error(formatted("field '{}' has {} values at each place, which have no shape {}; give a shape of so many", name,
                         components, shape_text(shape)));
+}
+
+void require_summable(const std::string& name, const Field& field, const DistributedPiece* piece) {
+  constexpr double kMost = 1e250;  // sums over areas stay finite
+  if (field.how != Transfer::kConserve) return;
+  const bool at_points = field.place == FieldPlace::kPoints;
+  const std::size_t each = (field.place == FieldPlace::kCorners ? 3 : 1) * field.components;
+  for (std::size_t i = 0; i < field.values.size(); ++i) {
+    const std::size_t place = i / each;
+    if (std::abs(field.values[i]) <= kMost) continue;  // not for NaN
+    if (at_points && piece != nullptr && piece->owners[place] != piece->rank) continue;
+    throw Error(
+        formatted("field '{}' is {} at {} {} (counted from 0), so its integral cannot be conserved; give it "
+                  "values from -{} to {}",
+                  name, field.values[i], at_points ? "point" : "triangle", place, kMost, kMost));
+  }
 }
 
 void take_from_owners(Fields& fields, const DistributedPiece& piece, Ranks& ranks) {

@@ -42,6 +42,10 @@ using Shapes = std::map<std::string, std::vector<std::int64_t>>;
 /// Throws Error unless values of this shape are so many.
 void require_shape(const std::string& name, const std::vector<std::int64_t>& shape, std::size_t components);
 
+/// Throws Error for a value that has no place in a sum, where a field keeps its integral: NaN, infinite, or so large
+/// that sums would be. `piece`: of a session; at points of other ranks, their values count.
+void require_summable(const std::string& name, const Field& field, const DistributedPiece* piece = nullptr);
+
 /// Gives fields at points that ranks share the values of the points' owners on all of them. Collective.
 void take_from_owners(Fields& fields, const DistributedPiece& piece, Ranks& ranks);
 

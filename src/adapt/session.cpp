@@ -239,6 +239,9 @@ void Session::advance(const std::function<Wanted()>& want, const Means& means, c
   const Stopwatch all;
   AdaptReport report{.generation = report_.generation + 1};
   Stages stages;
+  ranks.agree([&] {
+    for (const auto& [name, field] : fields_) require_summable(name, field, &present_.piece);
+  });
   const Wanted wanted = want();
   report.scale = wanted.scale;
   const IdVector<SubdomainId, Demand> demands = demands_of(wanted, threads, ranks);

@@ -36,6 +36,7 @@ std::vector<adapt::Field> fields_of(Mesh& mesh, const std::vector<std::string>& 
     if (found == named.end())
       throw Error("the mesh has no point data '" + name + "', which PartOptions::conserve names");
     found->field.how = Transfer::kConserve;
+    adapt::require_summable(name, found->field);
   }
   std::vector<adapt::Field> fields;
   for (patch::NamedField& field : named) fields.push_back(std::move(field.field));

@@ -100,7 +100,13 @@ void apply_transfers(NamedFields& fields, const AdaptCommand& command) {
     for (patch::NamedField& named : fields) {
       if (named.name != name) continue;
       any = true;
-      if (how == "conserve") named.field.how = Transfer::kConserve;
+      if (how != "conserve") continue;
+      named.field.how = Transfer::kConserve;
+      try {
+        adapt::require_summable(name, named.field);
+      } catch (const Error& error) {
+        throw InputError(command.mesh + ": " + error.what());
+      }
     }
     if (!any) refuse_name(fields, "data", name, "--transfer", command);
   }

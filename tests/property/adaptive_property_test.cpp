@@ -430,6 +430,21 @@ TEST_CASE("a limit stops a generation, and changes nothing") {
   test::check_same_mesh(mesh.mesh(), before);
 }
 
+TEST_CASE("what cannot be summed up is refused before anything changes, where integrals are to stay") {
+  AdaptiveMesh mesh(square(), {.max_area = 1e-2, .threads = 2});
+  const Mesh before = mesh.mesh();
+  const std::vector<double> lengths(before.points.size(), 0.05);
+  mesh.attach("u", std::vector<double>(before.points.size(), 1), FieldPlace::kPoints, Transfer::kConserve);
+  for (const double wrong : {std::nan(""), HUGE_VAL, -1e300}) {
+    mesh.field("u")[7] = wrong;
+    CHECK(mentions(error_text([&] { mesh.adapt(lengths); }), {"field 'u' is", "at point 7", "conserved"}));
+    test::check_same_mesh(mesh.mesh(), before);
+  }
+  mesh.field("u")[7] = 1;
+  mesh.adapt(lengths);
+  CHECK(mesh.report().generation == 1);
+}
+
 TEST_CASE("a front that moves to and fro leaves no trace") {
   // Subdomains are mended, not made anew; what they lose and gain again must not make them denser.
   const auto size = [](int g) {

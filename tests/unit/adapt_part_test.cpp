@@ -1,7 +1,9 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -101,6 +103,11 @@ TEST_CASE("a part, with lengths and point data") {
           doctest::Approx(2 * after.mesh.points[v].x - after.mesh.points[v].y).epsilon(1e-12));
   options.conserve = {"depth"};
   CHECK(adapt_part(before, part, options).mesh.triangles == after.mesh.triangles);
+  for (const double wrong : {std::nan(""), -std::numeric_limits<double>::infinity(), 1e300}) {
+    Mesh damaged = before;
+    damaged.attributes[7] = wrong;
+    CHECK(mentions(error_text([&] { (void)adapt_part(damaged, part, options); }), {"'depth' is", "at point 7"}));
+  }
   const std::string refused = error_text([&] { (void)adapt_outline(before, port(3.5), options); });
   CHECK(mentions(refused, {"'depth'", "PartOptions::conserve", "interpolate"}));
   options.conserve = {"heat"};
