@@ -106,7 +106,7 @@ def span_of(fault, source):
         raise BadFault(f"{fault.line}: {fault.right!r} ends as a statement does, but is not the whole of one")
     if not fault.anchors and find(fault.right, place[1]) is not None:
         raise BadFault(f"{fault.line}: {fault.file} has {fault.right!r} more than once; say behind what, by a line that begins with @")
-    if not is_statement(fault.right) and not is_whole(fault.right, source[:place[0]], source[place[1]:]):
+    if not is_statement(fault.right) and not (is_whole(fault.right, source[:place[0]], source[place[1]:]) and is_whole(fault.wrong, "", "")):
         raise BadFault(f"{fault.line}: {fault.right!r} is not the whole of an expression there")
     return place
 
@@ -115,12 +115,18 @@ BINDS = {operator: rank for rank, level in enumerate(["? :", "||", "&&", "== !="
 
 
 def is_whole(text, before, behind):
-    """Whether an expression is the same in parentheses: no operator beside it binds more tightly than one within it. Operators stand between blanks."""
+    """Whether it is an expression, and the same in parentheses: no operator beside it binds more tightly than one within it. Operators stand between blanks."""
     depth, loosest = 0, len(BINDS)
+    if re.match(r"(if|else|for|while|return|throw)\b", text):
+        return False
     for word in re.findall(r"[()\[\]{}]|(?<=\s)(?:[|&=!<>]=?=?|\|\||&&|[-+*/%?:])(?=\s)", " " + text + " "):
         depth += (word in "([{") - (word in ")]}")
+        if depth < 0:
+            return False
         if depth == 0 and word in BINDS:
             loosest = min(loosest, BINDS[word])
+    if depth != 0:
+        return False
     left = re.search(r"\s(\|\||&&|[=!<>]=|[-+*/%<>])\s+$", before)
     right = re.match(r"\s+(\|\||&&|[=!<>]=|[-+*/%<>?])\s", behind)
     if re.search(r"[(\s]!$", before):

@@ -59,7 +59,8 @@ class Faults(unittest.TestCase):
         for text, before, behind, whole in [("a || b", "if (", ")", True), ("a || b", "if (", " != c)", False), ("a || b", "if (c || ", ")", True),
                                             ("a || b", "if (c && ", ")", False), ("a && b", "if (c || ", ")", True), ("a == b", "if (!", ")", False),
                                             ("f(a || b)", "if (!", " && c)", True), ("b - c", "x = a - ", ";", False), ("b * c", "x = a - ", ";", True),
-                                            ("a ? b : c", "f(", ", d)", True), ("a ? b : c", "f(1 + ", ")", False)]:
+                                            ("a ? b : c", "f(", ", d)", True), ("a ? b : c", "f(1 + ", ")", False),
+                                            ("f(a, b", "x = ", ");", False), ("a, b)", "f(", ";", False), ("if (a) b", "", " = c;", False)]:
             with self.subTest(text=text, before=before, behind=behind):
                 self.assertEqual(faults.is_whole(text, before, behind), whole)
 
@@ -97,7 +98,7 @@ class Faults(unittest.TestCase):
     def test_mistakes_are_refused(self):
         for data, why in [("? no file\n- a\n+ b", "needs a file"), ("file f\n? nothing to put\n- a", r"begins with \+"), ("file f\nwords", "belongs to no fault"),
                           ("file f\n? twice\n- a += 1;\n+", "more than once"), ("file f\n? a part\n- 1;\n+ 2;", "not the whole"), ("file f\n? gone\n- b += 1;\n+", "has no"),
-                          ("file f\n? overlap\n@ twice\n- a += 1; return\n+ a\n? other\n- return a * 2\n+ b", "overlaps")]:
+                          ("file f\n? overlap\n@ twice\n- a += 1; return a\n+ a\n? other\n@ twice\n- a * 2\n+ b", "overlaps")]:
             with self.assertRaisesRegex(faults.BadFault, why):
                 faults.schemata(SOURCE, faults.parse(data, "box"))
 
