@@ -148,7 +148,7 @@ class AdaptiveObject {
     std::vector<double> values;
     FieldPlace place{};
     Transfer how{};
-    std::vector<std::int64_t> shape;  // of the values at each place
+    std::vector<std::int64_t> shape;  // that of the values at each place
   };
 
   Lengths lengths_from(const py::object& given) {

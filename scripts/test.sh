@@ -42,8 +42,8 @@ build() { cmake --preset "$1" -Wno-dev && cmake --build --preset "$1" -j "$jobs"
 # The value of an attribute of the test suite in ctest's report.
 reported() { grep -om1 "[[:space:]]$1=\"[0-9]*\"" "$2" | tr -dc '0-9'; }
 
-# beside LOG COMMAND...: starts the command while tests run, which leave a core idle half of the time, and at the lowest priority, so
-# that they do not wait for it; `finish LOG` waits, and shows what it said.
+# beside LOG COMMAND...: starts the command while tests run, on cores that these leave idle: at the lowest priority, so that they do not
+# wait for it. `finish LOG` waits, and shows what it said.
 beside() {
   local log=$1
   shift
@@ -51,14 +51,15 @@ beside() {
   set -m  # in a group of its own, which can be ended as one
   (renice -n 19 "$BASHPID" >/dev/null && "$@") >"$log" 2>&1 &
   set +m
-  beside=$!
+  group=$!
 }
-beside=
-trap '[[ -z $beside ]] || kill -- "-$beside" 2>/dev/null || true' EXIT
+group=
+trap '[[ -z $group ]] || kill -- "-$group" 2>/dev/null || true' EXIT
 
 finish() {
   local result=0
-  wait "$beside" || result=$?
+  wait "$group" || result=$?
+  group=
   cat "$1"
   return "$result"
 }

@@ -23,7 +23,7 @@ struct Range {
 /// One value for each triangle, the mean of what it overlaps.
 class AtTriangles final : public FieldTransfer {
  public:
-  AtTriangles(const Lineage& lineage, const OldField& field)
+  AtTriangles(const Lineage& lineage, const Field& field)
       : FieldTransfer(lineage, field), values_(lineage.new_triangles() * components()) {}
 
   void begin(const Lineage::Change& change) override {
@@ -60,7 +60,7 @@ class AtTriangles final : public FieldTransfer {
 /// overlaps.
 class AtCorners final : public FieldTransfer {
  public:
-  AtCorners(const Lineage& lineage, const OldField& field)
+  AtCorners(const Lineage& lineage, const Field& field)
       : FieldTransfer(lineage, field), values_(3 * lineage.new_triangles() * components()) {}
 
   void begin(const Lineage::Change& change) override {
@@ -119,11 +119,11 @@ class AtCorners final : public FieldTransfer {
 
 }  // namespace
 
-std::unique_ptr<FieldTransfer> conserving_at_triangles(const Lineage& lineage, const OldField& field) {
+std::unique_ptr<FieldTransfer> conserving_at_triangles(const Lineage& lineage, const Field& field) {
   return std::make_unique<AtTriangles>(lineage, field);
 }
 
-std::unique_ptr<FieldTransfer> conserving_at_corners(const Lineage& lineage, const OldField& field) {
+std::unique_ptr<FieldTransfer> conserving_at_corners(const Lineage& lineage, const Field& field) {
   return std::make_unique<AtCorners>(lineage, field);
 }
 

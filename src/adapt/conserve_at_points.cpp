@@ -18,7 +18,7 @@ namespace {
 /// conserves the integral, where that moves it in the right direction.
 class AtPoints final : public FieldTransfer {
  public:
-  AtPoints(const Lineage& lineage, const OldField& field)
+  AtPoints(const Lineage& lineage, const Field& field)
       : FieldTransfer(lineage, field),
         between_(lineage, field),
         sums_(lineage.after(), kMoments + field.components),
@@ -170,7 +170,7 @@ class AtPoints final : public FieldTransfer {
 
 }  // namespace
 
-std::unique_ptr<FieldTransfer> conserving_at_points(const Lineage& lineage, const OldField& field) {
+std::unique_ptr<FieldTransfer> conserving_at_points(const Lineage& lineage, const Field& field) {
   return std::make_unique<AtPoints>(lineage, field);
 }
 

@@ -10,10 +10,10 @@
 
 namespace driftmesh::adapt {
 
-/// One field on its way to the new mesh.
+/// One field on its way to the new mesh. What it is made with outlives it.
 class FieldTransfer {
  public:
-  FieldTransfer(const Lineage& lineage, const OldField& field) : lineage_(lineage), field_(field) {}
+  FieldTransfer(const Lineage& lineage, const Field& field) : lineage_(lineage), field_(field) {}
   virtual ~FieldTransfer() = default;
   FieldTransfer(const FieldTransfer&) = delete;
   FieldTransfer& operator=(const FieldTransfer&) = delete;
@@ -29,16 +29,16 @@ class FieldTransfer {
 
  protected:
   [[nodiscard]] std::size_t components() const { return field_.components; }
-  [[nodiscard]] const std::vector<double>& old() const { return field_.old; }
+  [[nodiscard]] const std::vector<double>& old() const { return field_.values; }
   [[nodiscard]] const Lineage& lineage() const { return lineage_; }
 
  private:
   const Lineage& lineage_;
-  const OldField& field_;
+  const Field& field_;
 };
 
-[[nodiscard]] std::unique_ptr<FieldTransfer> conserving_at_triangles(const Lineage& lineage, const OldField& field);
-[[nodiscard]] std::unique_ptr<FieldTransfer> conserving_at_corners(const Lineage& lineage, const OldField& field);
-[[nodiscard]] std::unique_ptr<FieldTransfer> conserving_at_points(const Lineage& lineage, const OldField& field);
+[[nodiscard]] std::unique_ptr<FieldTransfer> conserving_at_triangles(const Lineage& lineage, const Field& field);
+[[nodiscard]] std::unique_ptr<FieldTransfer> conserving_at_corners(const Lineage& lineage, const Field& field);
+[[nodiscard]] std::unique_ptr<FieldTransfer> conserving_at_points(const Lineage& lineage, const Field& field);
 
 }  // namespace driftmesh::adapt

@@ -52,9 +52,8 @@ void require_summable(const std::string& name, const Field& field, const Distrib
   constexpr double kMost = 1e250;  // sums over areas stay finite
   if (field.how != Transfer::kConserve) return;
   const bool at_points = field.place == FieldPlace::kPoints;
-  const std::size_t each = (field.place == FieldPlace::kCorners ? 3 : 1) * field.components;
   for (std::size_t i = 0; i < field.values.size(); ++i) {
-    const std::size_t place = i / each;
+    const std::size_t place = i / values_at(field);
     if (std::abs(field.values[i]) <= kMost) continue;  // not for NaN
     if (at_points && piece != nullptr && piece->owners[place] != piece->rank) continue;
     throw Error(
@@ -83,8 +82,8 @@ void take_from_owners(Fields& fields, const DistributedPiece& piece, Ranks& rank
 }
 
 Fields carried(const Fields& fields, const Lineage& lineage, Stayed& stayed) {
-  std::vector<OldField> old;
-  for (const auto& [name, field] : fields) old.push_back({field.place, field.how, field.components, field.values});
+  std::vector<const Field*> old;
+  for (const auto& [name, field] : fields) old.push_back(&field);
   std::vector<std::vector<double>> values = transferred(lineage, old, &stayed);
   Fields next;
   auto made = values.begin();

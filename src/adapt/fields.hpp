@@ -15,13 +15,6 @@
 
 namespace driftmesh::adapt {
 
-/// Values that go from one generation to the next.
-struct Field {
-  FieldPlace place = FieldPlace::kPoints;
-  Transfer how = Transfer::kInterpolate;
-  std::size_t components = 1;  ///< values at each place
-  std::vector<double> values;
-};
 using Fields = std::map<std::string, Field>;
 
 /// Of the values that a field has at each place, as a caller sees them: {} for a number, {2, 2} for a matrix. None: {}

@@ -18,7 +18,7 @@ namespace driftmesh::adapt {
 /// Values at points, linear between them. A point that stays keeps its bits.
 class Interpolation final : public FieldTransfer {
  public:
-  Interpolation(const Lineage& lineage, const OldField& field)
+  Interpolation(const Lineage& lineage, const Field& field)
       : FieldTransfer(lineage, field), values_(lineage.new_points() * components()) {}
 
   void begin(const Lineage::Change& change) override;

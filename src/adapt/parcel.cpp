@@ -18,7 +18,7 @@ void visit_stretches(const Generation& generation, SubdomainId s, const Field& f
       if (place != kNone) visit(to_index(place) * field.components, field.components);
     return;
   }
-  const std::size_t each = (field.place == FieldPlace::kCorners ? 3 : 1) * field.components;
+  const std::size_t each = values_at(field);
   visit(to_index(generation.first_triangle[s]) * each, generation.parts[s].mesh->mesh.live_triangles() * each);
 }
 

@@ -68,9 +68,8 @@ Holding renumbered(const Held& present, Generation now, const IdVector<Subdomain
   const Renumbering old(present.generation, next.generation, former);
   for (const auto& [name, field] : present.fields) {
     const bool at_points = field.place == FieldPlace::kPoints;
-    const std::size_t each = (field.place == FieldPlace::kCorners ? 3 : 1) * field.components;
     next.fields[name] = {field.place, field.how, field.components,
-                         reordered(field.values, at_points ? old.points() : old.triangles(), each)};
+                         reordered(field.values, at_points ? old.points() : old.triangles(), values_at(field))};
   }
   next.stayed = {reordered(present.stayed.points, old.points(), 1),
                  reordered(present.stayed.triangles, old.triangles(), 1)};

@@ -25,7 +25,7 @@ struct SavedHead {
   std::int64_t generation = 0;
   Fields fields;    ///< without values
   Bytes more;       ///< what only the caller knows
-  Shapes shapes{};  ///< of some fields
+  Shapes shapes{};  ///< those of some fields
 };
 
 /// Parcels to be saved.

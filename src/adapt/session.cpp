@@ -48,49 +48,56 @@ std::int64_t number_of_rank_0(Ranks& ranks) {
   return ByteReader(ranks.bytes_of_all(own.take()).front()).value<std::int64_t>();
 }
 
-/// The number that all ranks have which have any.
-std::size_t same_components(const std::string& name, std::size_t own, Ranks& ranks) {
-  ByteWriter writer;
-  writer.value(std::uint64_t{own});
-  std::vector<std::uint64_t> of_ranks;
-  for (const Bytes& bytes : ranks.bytes_of_all(writer.take())) ByteReader(bytes).value(of_ranks.emplace_back());
-  const auto known = std::ranges::find_if(of_ranks, [](std::uint64_t n) { return n > 0; });
+/// What all ranks say which say anything; empty if none does. `differ`: the error where `one` of rank r is not `other`
+/// of rank q.
+template <class Differ>
+Bytes same_on_all(Bytes own, Ranks& ranks, const Differ& differ) {
+  const std::vector<Bytes> of_ranks = ranks.bytes_of_all(std::move(own));
+  const auto said = [](const Bytes& bytes) { return !bytes.empty(); };
+  const auto known = std::ranges::find_if(of_ranks, said);
+  if (known == of_ranks.end()) return {};
   ranks.agree([&] {
     const auto other =
-        std::ranges::find_if(known, of_ranks.end(), [&](std::uint64_t n) { return n > 0 && n != *known; });
+        std::find_if(known, of_ranks.end(), [&](const Bytes& bytes) { return said(bytes) && bytes != *known; });
     if (other != of_ranks.end())
-      throw Error(
-          formatted("attach: field '{}' has {} values at each place on rank {}, and {} on rank {}; give the same "
-                    "number on each rank",
-                    name, *known, known - of_ranks.begin(), *other, other - of_ranks.begin()));
+      throw Error(differ(*known, known - of_ranks.begin(), *other, other - of_ranks.begin()));
   });
-  return known == of_ranks.end() ? 0 : static_cast<std::size_t>(*known);
+  return *known;
+}
+
+/// The number that all ranks have which have any.
+std::size_t same_components(const std::string& name, std::size_t own, Ranks& ranks) {
+  const auto number_from = [](const Bytes& bytes) { return ByteReader(bytes).value<std::uint64_t>(); };
+  ByteWriter writer;
+  if (own > 0) writer.value(std::uint64_t{own});
+  const Bytes same =
+      same_on_all(writer.take(), ranks, [&](const Bytes& one, std::ptrdiff_t r, const Bytes& other, std::ptrdiff_t q) {
+        return formatted(
+            "attach: field '{}' has {} values at each place on rank {}, and {} on rank {}; give the same "
+            "number on each rank",
+            name, number_from(one), r, number_from(other), q);
+      });
+  return same.empty() ? 0 : static_cast<std::size_t>(number_from(same));
 }
 
 /// The shape that all ranks give which have any values. It is known to fit them.
 std::vector<std::int64_t> same_shape(const std::string& name, const std::vector<std::int64_t>& own, bool any,
                                      Ranks& ranks) {
-  ByteWriter writer;
-  if (any) writer.array(own);
-  const std::vector<Bytes> of_ranks = ranks.bytes_of_all(writer.take());
-  const auto known = std::ranges::find_if(of_ranks, [](const Bytes& bytes) { return !bytes.empty(); });
-  if (known == of_ranks.end()) return {};
   const auto shape_from = [](const Bytes& bytes) {
     std::vector<std::int64_t> shape;
     ByteReader(bytes).array(shape);
     return shape;
   };
-  ranks.agree([&] {
-    const auto other =
-        std::find_if(known, of_ranks.end(), [&](const Bytes& bytes) { return !bytes.empty() && bytes != *known; });
-    if (other != of_ranks.end())
-      throw Error(
-          formatted("attach: field '{}' has values of shape {} at each place on rank {}, and of shape {} on "
-                    "rank {}; give the same shape on each rank",
-                    name, shape_text(shape_from(*known)), known - of_ranks.begin(), shape_text(shape_from(*other)),
-                    other - of_ranks.begin()));
-  });
-  return shape_from(*known);
+  ByteWriter writer;
+  if (any) writer.array(own);
+  const Bytes same =
+      same_on_all(writer.take(), ranks, [&](const Bytes& one, std::ptrdiff_t r, const Bytes& other, std::ptrdiff_t q) {
+        return formatted(
+            "attach: field '{}' has values of shape {} at each place on rank {}, and of shape {} on "
+            "rank {}; give the same shape on each rank",
+            name, shape_text(shape_from(one)), r, shape_text(shape_from(other)), q);
+      });
+  return same.empty() ? std::vector<std::int64_t>() : shape_from(same);
 }
 
 std::string words_of(FieldPlace place, Transfer how) {

@@ -97,7 +97,7 @@ class Session {
   struct Unfinished {
     Held from;
     Parts parts;
-    const Decomposition& decomposition;  ///< of all parts, but for what is cut further
+    const Decomposition& decomposition;  ///< with what is cut further as a whole
     std::optional<CutFurther> cut;
     Descendants descendants;
   };

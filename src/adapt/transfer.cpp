@@ -32,7 +32,7 @@ class SpareRoom {
   std::vector<OverlapList> rooms_;
 };
 
-std::unique_ptr<FieldTransfer> transfer_of(const Lineage& lineage, const OldField& field) {
+std::unique_ptr<FieldTransfer> transfer_of(const Lineage& lineage, const Field& field) {
   if (field.how == Transfer::kInterpolate) return std::make_unique<Interpolation>(lineage, field);
   switch (field.place) {
     case FieldPlace::kTriangles:
@@ -56,11 +56,12 @@ void note(const Lineage& lineage, const Lineage::Change& change, Stayed& stayed)
 
 }  // namespace
 
-std::vector<std::vector<double>> transferred(const Lineage& lineage, std::span<const OldField> fields, Stayed* stayed) {
+std::vector<std::vector<double>> transferred(const Lineage& lineage, std::span<const Field* const> fields,
+                                             Stayed* stayed) {
   std::vector<std::unique_ptr<FieldTransfer>> transfers;
-  for (const OldField& field : fields) transfers.push_back(transfer_of(lineage, field));
+  for (const Field* field : fields) transfers.push_back(transfer_of(lineage, *field));
   const bool any_is_conserved =
-      std::any_of(fields.begin(), fields.end(), [](const OldField& field) { return field.how == Transfer::kConserve; });
+      std::any_of(fields.begin(), fields.end(), [](const Field* field) { return field->how == Transfer::kConserve; });
   if (stayed != nullptr) {
     stayed->points.assign(lineage.new_points(), -1);
     stayed->triangles.assign(lineage.new_triangles(), -1);

@@ -10,13 +10,18 @@
 
 namespace driftmesh::adapt {
 
-/// Values on the old mesh. They must outlive what is done with them.
-struct OldField {
+/// Values that go from one mesh to the next.
+struct Field {
   FieldPlace place = FieldPlace::kPoints;
   Transfer how = Transfer::kInterpolate;
   std::size_t components = 1;  ///< values at each place
-  const std::vector<double>& old;
+  std::vector<double> values;
 };
+
+/// All values that a field has at a point, or in a triangle.
+[[nodiscard]] inline std::size_t values_at(const Field& field) {
+  return field.components * (field.place == FieldPlace::kCorners ? 3 : 1);
+}
 
 /// What of the old mesh is there in the new one.
 struct Stayed {
@@ -35,7 +40,7 @@ struct Stayed {
 /// direction; exact for a linear field.
 ///
 /// `stayed`: if not null, where what stayed is noted. Collective.
-[[nodiscard]] std::vector<std::vector<double>> transferred(const Lineage& lineage, std::span<const OldField> fields,
+[[nodiscard]] std::vector<std::vector<double>> transferred(const Lineage& lineage, std::span<const Field* const> fields,
                                                            Stayed* stayed = nullptr);
 
 }  // namespace driftmesh::adapt

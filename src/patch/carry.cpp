@@ -138,10 +138,6 @@ class Interpolation {
   std::vector<Carried> at_points_, at_triangles_;
 };
 
-std::size_t values_at(const adapt::Field& field) {
-  return field.components * (field.place == FieldPlace::kCorners ? 3 : 1);
-}
-
 }  // namespace
 
 void carry(std::vector<adapt::Field>& fields, const Part& part, const NewPart& made, Triangulation before,
@@ -149,13 +145,14 @@ void carry(std::vector<adapt::Field>& fields, const Part& part, const NewPart& m
   std::vector<std::vector<double>> old;
   for (adapt::Field& field : fields) old.push_back(std::move(field.values));
   Interpolation interpolation(part, made, before, numbers, threads);
-  std::vector<std::vector<double>> of_part;
+  std::vector<adapt::Field> of_part;
   for (std::size_t i = 0; i < fields.size(); ++i) {
     adapt::Field& field = fields[i];
     const bool at_points = field.place == FieldPlace::kPoints;
     field.values = in_new_order(old[i], values_at(field), at_points ? numbers.old_points : numbers.old_triangles);
     if (field.how == Transfer::kConserve)
-      of_part.push_back(taken_from(old[i], values_at(field), at_points ? part.point : part.triangle));
+      of_part.push_back({field.place, field.how, field.components,
+                         taken_from(old[i], values_at(field), at_points ? part.point : part.triangle)});
     else
       interpolation.add(field.place, values_at(field), old[i], field.values);
   }
@@ -166,13 +163,11 @@ void carry(std::vector<adapt::Field>& fields, const Part& part, const NewPart& m
       generation_of(made.mesh, triangulation_of(made.mesh, triangle_neighbors(made.mesh)));
   OneRank alone;
   const adapt::Lineage lineage(old_part, next_part, 1, alone);
-  std::vector<adapt::OldField> conserving;
+  std::vector<const adapt::Field*> conserving;
+  for (const adapt::Field& field : of_part) conserving.push_back(&field);
   std::vector<adapt::Field*> conserved;
   for (adapt::Field& field : fields)
-    if (field.how == Transfer::kConserve) {
-      conserving.push_back({field.place, field.how, field.components, of_part[conserved.size()]});
-      conserved.push_back(&field);
-    }
+    if (field.how == Transfer::kConserve) conserved.push_back(&field);
   const std::vector<std::vector<double>> values = adapt::transferred(lineage, conserving);
   for (std::size_t i = 0; i < conserved.size(); ++i)
     put(values[i], values_at(*conserved[i]),

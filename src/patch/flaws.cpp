@@ -180,7 +180,7 @@ class FlawSearch {
   }
 
   const Mesh& mesh_;
-  std::vector<DirectedEdge> sides_;  // of all triangles, by their ends
+  std::vector<DirectedEdge> sides_;  // those of all triangles, by their ends
 };
 
 }  // namespace

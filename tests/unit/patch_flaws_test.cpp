@@ -156,7 +156,7 @@ TEST_CASE("points in one place and crossing edges are flaws") {
 TEST_CASE("a mesh without flaws has none") {
   Mesh mesh = unit_squares(5, 4);
   CHECK(patch::find_flaw(mesh).empty());
-  mesh.points.push_back(mesh.points[3]);  // of no triangle
+  mesh.points.push_back(mesh.points[3]);  // in no triangle
   CHECK(patch::find_flaw(mesh).empty());
   CHECK(error_text([&] { patch::with_flaw_of(mesh, [] { throw Error("something else"); }); }) == "something else");
   CHECK(patch::with_flaw_of(mesh, [] { return 7; }) == 7);
