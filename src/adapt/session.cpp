@@ -51,8 +51,8 @@ std::int64_t number_of_rank_0(Ranks& ranks) {
 /// What all ranks say which say anything; empty if none does. `differ`: the error where `one` of rank r is not `other`
 /// of rank q.
 template <class Differ>
-Bytes same_on_all(Bytes own, Ranks& ranks, const Differ& differ) {
-  const std::vector<Bytes> of_ranks = ranks.bytes_of_all(std::move(own));
+Bytes same_on_all(const Bytes& own, Ranks& ranks, const Differ& differ) {
+  const std::vector<Bytes> of_ranks = ranks.bytes_of_all(own);
   const auto said = [](const Bytes& bytes) { return !bytes.empty(); };
   const auto known = std::ranges::find_if(of_ranks, said);
   if (known == of_ranks.end()) return {};
