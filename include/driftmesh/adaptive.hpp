@@ -44,7 +44,8 @@ enum class Transfer : std::uint8_t {
   /// The integral stays the same but for rounding (1e-12 of that of the absolute values). At triangles and corners,
   /// each gets its part of those that it overlaps; at points, interpolation is brought as close to the lumped
   /// projection as that takes, which leaves a linear field what it is. In all cases no value exceeds those that it
-  /// comes from, but for the rounding of areas, which grows with coordinates relative to the size of triangles.
+  /// comes from, but for rounding: that of points on slanted lines and between subdomains, where old and new triangles
+  /// do not cover quite the same, grows with coordinates relative to the size of triangles.
   kConserve,
 };
 

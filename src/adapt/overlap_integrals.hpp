@@ -22,8 +22,8 @@ using Weights = std::array<double, 3>;
 class Share {
  public:
   Share(const Overlap& overlap, std::span<const Point> polygon, const Lineage::Change& change, double correction)
-      : in_old_(change.old_mesh, overlap.old_triangle, polygon[0]),
-        in_new_(change.new_mesh, overlap.new_triangle, polygon[0]) {
+      : in_old_(change.old_mesh, overlap.old_triangle, change.new_mesh.corner(overlap.new_triangle, 0), polygon[0]),
+        in_new_(change.new_mesh, overlap.new_triangle, change.new_mesh.corner(overlap.new_triangle, 0), polygon[0]) {
     for (std::size_t i = 2; i < polygon.size(); ++i) add_triangle(polygon[i - 1], polygon[i], polygon[0], correction);
   }
 
@@ -44,19 +44,19 @@ class Share {
   }
 
  private:
-  /// The functions of the corners of a triangle, each 1 at one and 0 at the others: at a point, which is the origin of
-  /// integrals, and how they change from there.
+  /// The functions of the corners of a triangle, each 1 at one and 0 at the others: at a point, from which integrals
+  /// are taken, and how they change from there.
   struct Corners {
     Weights at, dx, dy;
-    Corners(const Triangulation& mesh, TriangleId t, const Point& origin) {
+    Corners(const Triangulation& mesh, TriangleId t, const Point& origin, const Point& p) {
       const Point &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
       const double each = 1 / rounded_cross(a, b, c);
       dx = {0, (c.y - a.y) * each, (a.y - b.y) * each};
       dy = {0, (a.x - c.x) * each, (b.x - a.x) * each};
       dx[0] = -dx[1] - dx[2];
       dy[0] = -dy[1] - dy[2];
-      at = {0, dx[1] * (origin.x - a.x) + dy[1] * (origin.y - a.y),
-            dx[2] * (origin.x - a.x) + dy[2] * (origin.y - a.y)};
+      const double x = origin.x - a.x + p.x, y = origin.y - a.y + p.y;
+      at = {0, dx[1] * x + dy[1] * y, dx[2] * x + dy[2] * y};
       at[0] = 1 - at[1] - at[2];
     }
   };

@@ -72,9 +72,11 @@ class OverlapFinder::Search {
   /// From the triangle at the centroid on, across the edges on which it overlaps both sides. Calls visit(old triangle,
   /// polygon).
   template <class Visit>
-  void operator()(const CornerPoints& triangle, const Visit& visit) {
+  void operator()(const CornerPoints& corners, const Visit& visit) {
     ++search_;
-    enter(locator_.locate(centroid(triangle)).triangle);
+    enter(locator_.locate(centroid(corners)).triangle);
+    origin_ = corners[0];
+    const CornerPoints triangle{from_origin(corners[0]), from_origin(corners[1]), from_origin(corners[2])};
     while (!open_.empty()) {
       const TriangleId t = open_.back();
       open_.pop_back();
@@ -97,7 +99,7 @@ class OverlapFinder::Search {
     polygon->clear();
     for (const Point& p : triangle) polygon->push_back(p, kOfNew);
     for (int i = 0; i < 3; ++i) {
-      const Point &a = mesh_.corner(t, next(i)), &b = mesh_.corner(t, previous(i));
+      const Point a = from_origin(mesh_.corner(t, next(i))), b = from_origin(mesh_.corner(t, previous(i)));
       const int left = (rounded_cross(a, b, triangle[0]) >= 0) + (rounded_cross(a, b, triangle[1]) >= 0) +
                        (rounded_cross(a, b, triangle[2]) >= 0);
       if (left == 3) continue;
@@ -109,6 +111,8 @@ class OverlapFinder::Search {
     return *polygon;
   }
 
+  [[nodiscard]] Point from_origin(const Point& p) const { return {p.x - origin_.x, p.y - origin_.y}; }
+
   void enter(TriangleId t) {
     if (std::exchange(seen_[to_index(t)], search_) != search_) open_.push_back(t);
   }
@@ -117,6 +121,7 @@ class OverlapFinder::Search {
   Locator locator_;
   std::vector<std::uint32_t> seen_;  // the last search that came to each triangle
   std::uint32_t search_ = 0;
+  Point origin_{};
   std::vector<TriangleId> open_;
   std::array<CommonPolygon, 2> polygons_;
 };

@@ -13,7 +13,8 @@
 
 namespace driftmesh::adapt {
 
-/// The part that a new triangle of a subdomain has in common with an old one.
+/// The part that a new triangle of a subdomain has in common with an old one. Its origin is the first corner of the new
+/// one, so that rounding is small beside the triangle, however far from 0 both are.
 struct Overlap {
   TriangleId old_triangle{};
   TriangleId new_triangle{};
@@ -27,7 +28,7 @@ struct OverlapList {
   static constexpr std::size_t kMostCorners = 9;
 
   std::vector<Overlap> overlaps;  ///< those of a new triangle behind each other
-  std::vector<Point> corners;     ///< convex polygons, counterclockwise
+  std::vector<Point> corners;     ///< convex polygons, counterclockwise, each as seen from its origin
 
   [[nodiscard]] std::span<const Point> polygon(const Overlap& o) const {
     return std::span(corners).subspan(o.first, o.end - o.first);

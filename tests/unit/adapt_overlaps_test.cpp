@@ -1,9 +1,12 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
 #include "adapt/overlaps.hpp"
+#include "geometry/triangle_geometry.hpp"
 #include "mesh/cdt.hpp"
 #include "mesh/refiner.hpp"
 #include "support/rings.hpp"
@@ -15,14 +18,18 @@ using namespace driftmesh::testing;
 
 namespace {
 
-Triangulation pentagon(double area) {
+Triangulation refined(const std::vector<Point>& ring, double area) {
   Pslg pslg;
-  add_ring(pslg, {{0, 0}, {4, -1}, {6, 2}, {3, 5}, {-1, 3}});
+  add_ring(pslg, ring);
   Triangulation mesh = triangulate(pslg);
   QualityBounds bounds;
   bounds.plain.area = area;
   Refiner(mesh, bounds).refine();
   return mesh;
+}
+
+Triangulation pentagon(double area) {
+  return refined({{0, 0}, {4, -1}, {6, 2}, {3, 5}, {-1, 3}}, area);
 }
 
 bool is_any(TriangleId /*t*/) {
@@ -65,4 +72,21 @@ TEST_CASE("overlaps that are found some at a time are those that are found at on
     }
     CHECK(next == all.overlaps.size());
   }
+}
+
+TEST_CASE("overlaps of a new triangle are all of it far from the origin, too") {
+  const double x = 500'000, y = 6'000'000;  // meters, as in a zone of UTM
+  const std::vector<Point> square{{x, y}, {x + 8, y}, {x + 8, y + 8}, {x, y + 8}};
+  const Triangulation before = refined(square, 0.03), after = refined(square, 0.011);
+  adapt::OverlapList all;
+  REQUIRE(adapt::OverlapFinder(before, after, is_any).find(1'000'000, all));
+  IdVector<TriangleId, double> covered(after.triangles.size(), 0);
+  for (const adapt::Overlap& o : all.overlaps) covered[o.new_triangle] += o.area;
+  double worst = 0;
+  for (const TriangleId t : ids_of(after.triangles)) {
+    if (!after.triangles[t].alive()) continue;
+    const double area = signed_area(after.corner(t, 0), after.corner(t, 1), after.corner(t, 2));
+    worst = std::max(worst, std::fabs(covered[t] - area) / area);
+  }
+  CHECK(worst < 1e-14);
 }

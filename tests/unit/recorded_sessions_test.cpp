@@ -204,10 +204,10 @@ std::uint64_t digest_on_ranks(std::uint64_t seed, AdaptReport& sums) {
 }
 
 constexpr std::array<std::uint64_t, 16> kRecordedSessions{
-    0xcefaf90970b4ff40, 0xf55f97611cfe7d79, 0x7a6ecc240f0a018b, 0x8a8042169e352a0a,
-    0xeb17b7b2f8fdaac9, 0xbe301393a1475ff7, 0xa2bd0b302c856f60, 0x4c991671ae59c2a1,
-    0xbd5a81e4661dd26d, 0x1621b31b66dcd589, 0x7c347b1eca6d9fb4, 0x4b92a4a793ec1da8,
-    0x1518aa82c6eb808d, 0x5fecb8a8406366aa, 0x50b64a8b1bc32e60, 0x216591f985bba092};
+    0x9f3844ad97f57cdc, 0x92a6586c491c9a06, 0x45d0479596188ffd, 0xe6f8b344a9628db9, 0xb7bb63bffb03d757,
+    0xbf4668fa4a14abbe, 0x0fe1c34f7e5e6d67, 0xe2a1e952e08c4540, 0xdb0c6b2108622962, 0x54bf0742349f7ba8,
+    0xaf67fe5849b43117, 0xd2afd71c90396062, 0x045a4f68359c8ca3, 0x2715dc9a17d9d5c2, 0xc82bbaedb2336eaa,
+    0x00ec4c1de666f64b};
 
 }  // namespace
 
