@@ -25,8 +25,8 @@ struct AdaptiveOptions {
   /// A subdomain is coarsened once that saves this fraction of its triangles.
   double coarsening = 0.03;
   /// If lengths ask for more triangles than this, all are made longer by a factor that fits, as forecast.
-  /// The first forecast may be some 20 % too low; later ones know how many more triangles the present mesh needed. 0:
-  /// no limit.
+  /// The first forecast may be some 20 % too low, more where lengths change from point to point or the outline asks for
+  /// triangles, too; later ones know how many more the present mesh needed. 0: no limit.
   double most_triangles = 0;
 };
 

@@ -132,7 +132,7 @@ double triangles_asked(const Generation& present, const QualityBounds& bounds, c
 /// The triangles of the present mesh for each that was asked for: angles and borders need some more, and lengths that
 /// grow are taken where they are least.
 double made_for_each_asked(const Generation& present, Ranks& ranks) {
-  constexpr double kMost = 1.5;  // more is not to be had from lengths
+  constexpr double kMost = 4;  // more comes from the outline, and longer lengths would not help
   double asked = 0;
   for (const double of_one : of_all_parts(ranks, present, [&](SubdomainId s) { return present.parts[s].asked; }))
     asked += of_one;

@@ -348,6 +348,16 @@ TEST_CASE("no more triangles than asked for") {
   CHECK(mesh.mesh().triangles.size() > 24000);
 }
 
+TEST_CASE("no more triangles than asked for where lengths are different at each point, either") {
+  AdaptiveMesh mesh(square(), {.max_area = 1e-3, .threads = 1}, {.gradation = 1, .most_triangles = 10000});
+  std::mt19937 random(1);
+  std::normal_distribution<double> spread;
+  for (int g = 0; g < 5; ++g)
+    mesh.adapt(at_points(mesh.mesh(), [&](const Point& /*p*/) { return 4e-3 * std::exp(spread(random)); }));
+  CHECK(mesh.mesh().triangles.size() < 11000);
+  CHECK(mesh.mesh().triangles.size() > 9000);
+}
+
 TEST_CASE("lengths from errors meet the target") {
   // The error of linear interpolation of x^4 + y^2, about.
   const auto error_of = [](const Mesh& mesh) {
