@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
+#include "adapt/overlap_integrals.hpp"
 #include "adapt/overlaps.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/cdt.hpp"
@@ -89,4 +91,22 @@ TEST_CASE("overlaps of a new triangle are all of it far from the origin, too") {
     worst = std::max(worst, std::fabs(covered[t] - area) / area);
   }
   CHECK(worst < 1e-14);
+}
+
+TEST_CASE("triangles that stay have no overlaps, whatever rounding says") {
+  const Triangulation before = pentagon(0.3), after = pentagon(0.11);
+  adapt::Descent descent;
+  descent.same.resize(after.triangles.size(), kNone);
+  const IdVector<VertexId, std::int32_t> places;
+  const adapt::Lineage::Change change{SubdomainId{0}, false, before, after, descent, {}, {}, places, places};
+  const auto overlaps_of_old = [&](TriangleId old) {
+    adapt::Overlaps overlaps(change, {});
+    std::ptrdiff_t count = 0;
+    while (overlaps.next()) count += std::ranges::count(overlaps.found.overlaps, old, &adapt::Overlap::old_triangle);
+    return count;
+  };
+  const TriangleId some{7};
+  CHECK(overlaps_of_old(some) > 1);
+  descent.same[TriangleId{0}] = some;  // far more than rounding
+  CHECK(overlaps_of_old(some) == 0);
 }
