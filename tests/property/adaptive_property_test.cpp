@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <random>
 #include <set>
 #include <string>
@@ -312,6 +313,23 @@ TEST_CASE("conserving transfer keeps integrals, bounds and constants") {
   CHECK(joined > 0);
 }
 
+TEST_CASE("transfer conserves integrals where a subdomain has more overlaps than are kept at once") {
+  AdaptiveMesh mesh(square(), {.max_area = 1.1e-5, .threads = 1, .subdomains = {.count = 1}});
+  std::vector<double> values;
+  for (const auto& t : mesh.mesh().triangles) values.push_back(1 + std::sin(9 * mesh.mesh().points[t[0]].x));
+  const auto integral = [&](const auto& of_triangles) {
+    double sum = 0;
+    for (std::size_t t = 0; t < of_triangles.size(); ++t) sum += of_triangles[t] * area_of(mesh.mesh(), t);
+    return sum;
+  };
+  const double before = integral(values);
+  mesh.attach("u", values, FieldPlace::kTriangles, Transfer::kConserve);
+  mesh.adapt(std::vector<double>(mesh.mesh().points.size(), 0.0036));
+  CHECK(mesh.report().remade == 1);
+  CHECK(mesh.mesh().triangles.size() > 150'000);  // with the old ones beneath each
+  CHECK(integral(mesh.field("u")) == doctest::Approx(before).epsilon(1e-11));
+}
+
 TEST_CASE("what is as it should be stays") {
   AdaptiveMesh mesh(square(), {.max_area = 1e-3, .threads = 1});
   const auto length = [](const Point& p) { return 0.02 + 0.1 * std::hypot(p.x - 0.3, p.y - 0.4); };
@@ -325,6 +343,35 @@ TEST_CASE("what is as it should be stays") {
   CHECK(mesh.mesh().triangles.size() == coarse);
   CHECK(std::ranges::count(mesh.stayed_triangles(), -1) == 0);
   CHECK(std::ranges::count(mesh.stayed_points(), -1) == 0);
+}
+
+TEST_CASE("borders of subdomains are as fine as the bound on areas on either side asks") {
+  int judged = 0;
+  for (const bool fine_is_left : {true, false}) {
+    CAPTURE(fine_is_left);
+    constexpr double kFine = 2e-4;
+    Pslg halves = square();
+    halves.points.insert(halves.points.end(), {{0.5, 0}, {0.5, 1}});
+    halves.segments = {{0, 4, 1}, {4, 1, 1}, {1, 2, 2}, {2, 5, 3}, {5, 3, 3}, {3, 0, 4}, {4, 5, 5}};
+    halves.regions = {{{fine_is_left ? 0.25 : 0.75, 0.5}, 1, kFine}, {{fine_is_left ? 0.75 : 0.25, 0.5}, 2, 0}};
+    AdaptiveMesh mesh(halves, {.max_area = 0.1, .threads = 1, .subdomains = {.count = 24}});
+    for (const double length : {0.01, 0.5}) mesh.adapt(std::vector<double>(mesh.mesh().points.size(), length));
+    CHECK(mesh.report().remade > 0);
+    std::map<std::set<std::int32_t>, std::set<std::int32_t>> beside;  // the subdomains at each edge on the border
+    for (std::size_t t = 0; t < mesh.mesh().triangles.size(); ++t)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto a = mesh.mesh().triangles[t][i], b = mesh.mesh().triangles[t][(i + 1) % 3];
+        if (mesh.mesh().points[a].x == 0.5 && mesh.mesh().points[b].x == 0.5)
+          beside[{a, b}].insert(mesh.mesh().subdomains[t]);
+      }
+    for (const auto& [ends, subdomains] : beside) {
+      if (subdomains.size() < 2) continue;
+      ++judged;
+      const double length = std::fabs(mesh.mesh().points[*ends.begin()].y - mesh.mesh().points[*ends.rbegin()].y);
+      CHECK(length * length <= 4 / std::sqrt(3.0) * kFine);  // an edge of the equilateral triangle of that area
+    }
+  }
+  CHECK(judged > 40);
 }
 
 TEST_CASE("a function of the place is followed, too") {

@@ -9,6 +9,7 @@
 #include <random>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "adapt/session.hpp"
@@ -304,6 +305,88 @@ TEST_CASE("a session that was saved goes on on any number of ranks as it would h
         }
     }
   }
+}
+
+TEST_CASE("where ranks say different things of a point that they share, what its owner says counts") {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path() / "shared.h5").string();
+  Case given(1);
+  constexpr std::int32_t kRanks = 3;
+  const IdVector<SubdomainId, Rank> holders = given.deal(kRanks);
+  using AtPlaces = std::map<std::pair<double, double>, double>;
+  IdVector<Rank, AtPlaces> said(kRanks), kept(kRanks);
+  IdVector<Rank, std::size_t> shared(kRanks, 0);
+  const auto at = [](const Point& p) { return std::pair(p.x, p.y); };
+  on_ranks(kRanks, [&](Ranks& ranks) {
+    const adapt::Means means{ranks, 1, {}};
+    adapt::Session session(
+        start_on(ranks.rank(), given.live, holders), given.options, [](Mesh&) {}, means);
+    const DistributedPiece& piece = session.piece();
+    const std::vector<double> own(piece.mesh.points.size(), 1.0 + to_int(ranks.rank()));
+    session.attach("who", own, FieldPlace::kPoints, Transfer::kInterpolate, means);
+    for (std::size_t i = 0; i < own.size(); ++i)
+      if (piece.owners[i] == ranks.rank()) said[ranks.rank()][at(piece.mesh.points[i])] = own[i];
+    for (const DistributedPiece::Neighbor& neighbor : piece.neighbors) shared[ranks.rank()] += neighbor.shared.size();
+    session.save(path, {}, means);
+    std::ranges::copy(own, session.field("who").begin());
+    session.adapt(RingField(given.ring, 1), means, {});
+    for (std::size_t i = 0; i < session.stayed_points().size(); ++i)
+      if (session.stayed_points()[i] >= 0)
+        kept[ranks.rank()][at(session.piece().mesh.points[i])] = session.field("who")[i];
+  });
+  AtPlaces all;
+  for (const AtPlaces& of_rank : said) all.insert(of_rank.begin(), of_rank.end());
+  std::size_t all_kept = 0;
+  for (const Rank r : ids_of(kept)) {
+    CHECK(shared[r] > 5);
+    all_kept += kept[r].size();
+    std::size_t wrong = 0;
+    for (const auto& [place, value] : kept[r]) wrong += value != all.at(place);
+    CHECK(wrong == 0);
+  }
+  CHECK(all_kept > 20);
+  OneRank alone;
+  adapt::Session saved(adapt::read_saved(path, alone), [](Mesh&) {}, {alone, 1, {}});
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < saved.piece().mesh.points.size(); ++i)
+    wrong += saved.field("who")[i] != all.at(at(saved.piece().mesh.points[i]));
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("subdomains that are divided at once get numbers by which ones they were, whoever has them") {
+  Pslg square;
+  square.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  square.segments = {{0, 1, 1}, {1, 2, 1}, {2, 3, 1}, {3, 0, 1}};
+  const job::LiveMesh live = first_generation(square, {.triangles = 600, .threads = 1, .subdomains = {.count = 12}});
+  // In some subdomains, by their order, lengths are short.
+  std::vector<Point> fine;
+  for (const SubdomainId s : ids_of(live.plan.decomposition.subdomains))
+    if (to_int(s) % 4 == 1) fine.push_back(live.plan.decomposition.subdomains[s].centroid);
+  const auto generation = [&](const IdVector<SubdomainId, Rank>& holders, Ranks& ranks) {
+    const adapt::Means means{ranks, 1, {}};
+    adapt::Session session(
+        start_on(ranks.rank(), live, holders), {.gradation = 0}, [](Mesh&) {}, means);
+    std::vector<double> lengths;
+    for (const Point& p : session.piece().mesh.points) {
+      const auto is_near = [&](const Point& q) { return std::hypot(p.x - q.x, p.y - q.y) < 0.06; };
+      lengths.push_back(std::ranges::any_of(fine, is_near) ? 0.006 : 0.1);
+    }
+    session.adapt(lengths, means, {});
+    return std::pair(session.piece(), session.report().divided);
+  };
+  OneRank one;
+  const auto [whole, divided] = generation(IdVector<SubdomainId, Rank>(live.parts.size(), Rank{0}), one);
+  CHECK(divided >= 3);
+  constexpr std::int32_t kRanks = 3;
+  IdVector<SubdomainId, Rank> holders;  // the last ones are on the first rank
+  for (std::size_t s = 0; s < live.parts.size(); ++s)
+    holders.push_back(static_cast<Rank>(kRanks - 1 - static_cast<std::int32_t>(s * kRanks / live.parts.size())));
+  IdVector<Rank, std::size_t> differences(kRanks, 1);
+  on_ranks(kRanks, [&, &whole = whole](Ranks& ranks) {
+    const auto piece = generation(holders, ranks).first;
+    differences[ranks.rank()] = testing::PieceOfWhole(piece, whole.mesh).differences();
+  });
+  for (const std::size_t of_rank : differences) CHECK(of_rank == 0);
 }
 
 TEST_CASE("a file that is no saved session, or a damaged one, is refused by name") {

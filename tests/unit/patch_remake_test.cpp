@@ -280,3 +280,23 @@ TEST_CASE("what is made anew in subdomains beside parts that stay has subdomains
     CHECK(most > other + 10);
   }
 }
+
+TEST_CASE("more triangles than are allowed in a part are one clear error") {
+  Mesh mesh = large_grid();
+  patch::Order order{.inside = patch::triangles_in(mesh, kMiddle), .options = {.most_triangles = 500}};
+  order.lengths.assign(mesh.points.size(), 0.1);
+  CHECK_THROWS_WITH_AS(
+      (void)patch::remake(std::move(mesh), {}, std::move(order)),
+      "lengths ask for more than 500 triangles in what is made anew; ask for longer ones, or allow more triangles",
+      LimitError);
+}
+
+TEST_CASE("a mesh that is all made anew as one has no subdomains, and its boundary is listed") {
+  Mesh mesh = large_grid();
+  REQUIRE(mesh.edges.empty());
+  CHECK(made_anew(mesh, kMiddle, 0.5).mesh.edges.size() == 4 * 14);
+  mesh.subdomains.assign(mesh.triangles.size(), 4);
+  const patch::Remade after = made_anew(mesh, {{-1, -1}, {15, 15}}, 0.7);
+  CHECK(after.mesh.triangles.size() > mesh.triangles.size());
+  CHECK(after.mesh.subdomains.empty());
+}

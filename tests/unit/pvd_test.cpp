@@ -47,6 +47,7 @@ TEST_CASE("a .pvd that cannot be played is refused") {
   refused(pvd_text(""), "names no meshes");
   refused(pvd_text(data_set("now", "a.vtu")), ":4: needs timestep");
   refused(pvd_text(data_set("inf", "a.vtu")), ":4: needs timestep");
+  refused(pvd_text(data_set("1 s", "a.vtu")), ":4: needs timestep");
   refused(pvd_text(data_set("0", "")), ":4: has a DataSet without file");
   refused(pvd_text(data_set("0", "a.vtu") + data_set("0", "b.vtu")), "several parts of one moment");
   refused(pvd_text(data_set("0", "../a.vtu")), ":4: names the mesh ../a.vtu, outside of its own folder");
