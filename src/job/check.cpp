@@ -83,7 +83,7 @@ void check_input(const Request::Input& input) {
           "name one with {input.generate}");
   if (input.generator.empty()) return;
   try {
-    static_cast<void>(generate(input.generator, input.parameters));
+    require_generated(input.generator, input.parameters);
   } catch (const Error& error) {
     throw KeyError("input.generate", KeyText::of("is invalid: {}", text_of(error)),
                    "driftmesh generate --help lists the models and their parameters");

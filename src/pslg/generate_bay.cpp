@@ -6,6 +6,7 @@
 
 #include "driftmesh/generate.hpp"
 #include "pslg/contour.hpp"
+#include "pslg/generators.hpp"
 #include "pslg/noise.hpp"
 #include "pslg/seeded_random.hpp"
 #include "pslg/shape_builder.hpp"
@@ -211,7 +212,9 @@ void add_shore(Pslg& pslg, const ContourLoop& loop, std::int32_t marker) {
       pslg.segments[first + i].marker = 2;
 }
 
-void check_bay(const BayOptions& o) {
+}  // namespace
+
+void require_valid(const BayOptions& o) {
   const auto require = [](bool condition, const char* what) { require_option(condition, "bay", what); };
   require(o.width > 0 && o.height > 0 && o.width < 1e9 && o.height < 1e9,
           "width and height must be positive, below 1e9");
@@ -221,10 +224,8 @@ void check_bay(const BayOptions& o) {
   require(o.roughness >= 0 && o.roughness <= 1, "the roughness must be 0 to 1");
 }
 
-}  // namespace
-
 Pslg generate_bay(const BayOptions& o) {
-  check_bay(o);
+  require_valid(o);
   Grid terrain = Terrain(o).make();
   keep_main_basin(terrain, kLeastIsland);
   Pslg pslg;

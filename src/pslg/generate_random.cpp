@@ -8,6 +8,7 @@
 
 #include "driftmesh/generate.hpp"
 #include "geometry/midpoint.hpp"
+#include "pslg/generators.hpp"
 #include "pslg/seeded_random.hpp"
 #include "pslg/shape_builder.hpp"
 
@@ -126,10 +127,14 @@ std::vector<std::vector<Index>> cells_of(const std::vector<Point>& points, std::
 
 }  // namespace
 
-Pslg generate_random_polygon(const RandomPolygonOptions& o) {
+void require_valid(const RandomPolygonOptions& o) {
   require_option(o.vertices >= 4 && o.vertices <= 100'000'000, "random-polygon",
                  "the number of vertices must be 4 to 100000000");
   require_option(o.jitter >= 0 && o.jitter < 0.5, "random-polygon", "the jitter must be 0 to less than 0.5");
+}
+
+Pslg generate_random_polygon(const RandomPolygonOptions& o) {
+  require_valid(o);
   SeededRandom random(o.seed);
   const std::int32_t cells = o.vertices / 4;
   const CellTree tree(cells, random);
@@ -140,11 +145,15 @@ Pslg generate_random_polygon(const RandomPolygonOptions& o) {
   return checked(std::move(pslg), "random-polygon");
 }
 
-Pslg generate_random_points(const RandomPointsOptions& o) {
+void require_valid(const RandomPointsOptions& o) {
   require_option(o.points >= 3 && o.points <= 500'000'000, "random-points",
                  "the number of points must be 3 to 500000000");
   require_option(o.segments >= 0 && o.segments <= o.points / 4, "random-points",
                  "the number of segments must be 0 to a quarter of the points");
+}
+
+Pslg generate_random_points(const RandomPointsOptions& o) {
+  require_valid(o);
   SeededRandom random(o.seed);
   Pslg pslg;
   pslg.points.reserve(o.points + 4);

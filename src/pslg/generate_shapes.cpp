@@ -3,6 +3,7 @@
 #include <string>
 
 #include "driftmesh/generate.hpp"
+#include "pslg/generators.hpp"
 #include "pslg/seeded_random.hpp"
 #include "pslg/shape_builder.hpp"
 
@@ -54,7 +55,13 @@ Chain bent(Chain chain, double radius, double angle) {
   return chain;
 }
 
-void check_pipe(const PipeOptions& o, double middle) {
+double middle_radius(const PipeOptions& o) {
+  return (o.outer_radius + o.bore_radius) / 2;
+}
+
+}  // namespace
+
+void require_valid(const PipeOptions& o) {
   const auto require = [](bool condition, const char* what) { require_option(condition, "pipe", what); };
   require(o.bore_radius > 0 && o.outer_radius > o.bore_radius, "0 < bore radius < outer radius is needed");
   require(o.edge > 0, "the edge length must be positive");
@@ -63,15 +70,13 @@ void check_pipe(const PipeOptions& o, double middle) {
           "the channel depth must be positive and less than the thickness of the wall");
   require(o.fillet > 0 && 2 * o.fillet < std::min(o.channel_depth, o.channel_width),
           "the fillet must be positive and less than half the channel's depth and width");
-  require(o.channels * o.channel_width < 2 * kPi * middle,
+  require(o.channels * o.channel_width < 2 * kPi * middle_radius(o),
           "the channels do not fit side by side; take fewer or narrower ones");
 }
 
-}  // namespace
-
 Pslg generate_pipe(const PipeOptions& o) {
-  const double middle = (o.outer_radius + o.bore_radius) / 2;
-  check_pipe(o, middle);
+  require_valid(o);
+  const double middle = middle_radius(o);
   Pslg pslg;
   add_loop(pslg, circle({0, 0}, o.outer_radius, edges_for(2 * kPi * o.outer_radius, o.edge, 8)), 1);
   add_hole(pslg, circle({0, 0}, o.bore_radius, edges_for(2 * kPi * o.bore_radius, o.edge, 8)), {0, 0}, 2);
@@ -84,13 +89,17 @@ Pslg generate_pipe(const PipeOptions& o) {
   return checked(std::move(pslg), "pipe");
 }
 
-Pslg generate_cylinder_flow(const CylinderFlowOptions& o) {
+void require_valid(const CylinderFlowOptions& o) {
   const auto require = [](bool condition, const char* what) { require_option(condition, "cylinder-flow", what); };
   require(o.radius > 0, "the radius must be positive");
   require(o.upstream > o.radius && o.downstream > o.radius && o.height > o.radius,
           "upstream, downstream and height must be larger than the radius");
   require(o.arc_edges >= 4 && o.arc_edges <= 10'000'000, "the arc must have 4 to 10000000 edges");
   require(o.edge > 0, "the edge length must be positive");
+}
+
+Pslg generate_cylinder_flow(const CylinderFlowOptions& o) {
+  require_valid(o);
   Chain chain = arc({0, 0}, o.radius, kPi, 0, o.arc_edges);
   chain.front() = {-o.radius, 0};
   chain.back() = {o.radius, 0};
@@ -111,12 +120,16 @@ Pslg generate_cylinder_flow(const CylinderFlowOptions& o) {
   return checked(std::move(pslg), "cylinder-flow");
 }
 
-Pslg generate_fan(const FanOptions& o) {
+void require_valid(const FanOptions& o) {
   require_option(o.wedges >= 1 && o.wedges <= 10000, "fan", "the number of wedges must be 1 to 10000");
   require_option(o.angle > 0, "fan", "the angle must be positive");
   require_option(o.wedges * o.angle < (o.from_corner ? 90 : 360), "fan",
                  o.from_corner ? "the wedges must span less than 90 degrees at a corner"
                                : "the wedges must span less than 360 degrees");
+}
+
+Pslg generate_fan(const FanOptions& o) {
+  require_valid(o);
   Pslg pslg;
   add_loop(pslg, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 1);
   const Point apex = o.from_corner ? Point{0, 0} : Point{0.5, 0.5};
@@ -132,11 +145,15 @@ Pslg generate_fan(const FanOptions& o) {
   return checked(std::move(pslg), "fan");
 }
 
-Pslg generate_comb(const CombOptions& o) {
+void require_valid(const CombOptions& o) {
   const auto require = [](bool condition, const char* what) { require_option(condition, "comb", what); };
   require(o.slits >= 1 && o.slits <= 10'000'000, "the number of slits must be 1 to 10000000");
   require(o.width > 0 && o.width < o.pitch, "the width of a slit must be positive and less than the pitch");
   require(o.depth > 0 && o.depth < 1, "the depth must be between 0 and 1, the height of the comb");
+}
+
+Pslg generate_comb(const CombOptions& o) {
+  require_valid(o);
   const double length = (o.slits + 1) * o.pitch;
   Chain chain{{0, 0}, {length, 0}, {length, 1}};
   for (std::int32_t i = o.slits; i >= 1; --i) {
@@ -151,13 +168,17 @@ Pslg generate_comb(const CombOptions& o) {
   return checked(std::move(pslg), "comb");
 }
 
-Pslg generate_holes(const HolesOptions& o) {
+void require_valid(const HolesOptions& o) {
   const auto require = [](bool condition, const char* what) { require_option(condition, "holes", what); };
   require(o.columns >= 1 && o.rows >= 1 && std::int64_t{o.columns} * o.rows <= 10'000'000,
           "columns and rows must be at least 1, with at most 10000000 holes");
   require(o.sides >= 3 && o.sides <= 100000, "a hole must have 3 to 100000 sides");
   require(o.radius > 0 && o.jitter >= 0 && o.radius + o.jitter < 0.5,
           "the radius must be positive and radius + jitter less than 0.5, half a cell");
+}
+
+Pslg generate_holes(const HolesOptions& o) {
+  require_valid(o);
   SeededRandom random(o.seed);
   Pslg pslg;
   const double width = o.columns, height = o.rows;
@@ -171,9 +192,13 @@ Pslg generate_holes(const HolesOptions& o) {
   return checked(std::move(pslg), "holes");
 }
 
-Pslg generate_rectangle_hole(const RectangleHoleOptions& o) {
+void require_valid(const RectangleHoleOptions& o) {
   require_option(o.sides >= 3 && o.sides <= 10'000'000, "rectangle-hole", "the hole must have 3 to 10000000 sides");
   require_option(o.radius > 0 && o.radius < 0.5, "rectangle-hole", "the radius must be between 0 and 0.5");
+}
+
+Pslg generate_rectangle_hole(const RectangleHoleOptions& o) {
+  require_valid(o);
   Pslg pslg;
   add_loop(pslg, {{0, 0}, {2, 0}, {2, 1}, {0, 1}}, 1);
   add_hole(pslg, circle({1, 0.5}, o.radius, o.sides), {1, 0.5}, 2);

@@ -25,8 +25,8 @@ void read_value(const std::string& text, const std::string& of, Value& value) {
   }
 }
 
-template <class Options, Pslg (*make)(const Options&)>
-Pslg generate_with(const std::string& name, const Parameters& parameters) {
+template <class Options>
+Options options_from(const std::string& name, const Parameters& parameters) {
   Options options;
   std::vector<std::string> known;
   std::size_t used = 0;
@@ -42,7 +42,17 @@ Pslg generate_with(const std::string& name, const Parameters& parameters) {
       if (std::find(known.begin(), known.end(), parameter) == known.end())
         throw InputError(name + " has no parameter '" + parameter + "'; the nearest one is '" +
                          nearest_name(parameter, known) + "'");
-  return make(options);
+  return options;
+}
+
+template <class Options, Pslg (*make)(const Options&)>
+Pslg generate_with(const std::string& name, const Parameters& parameters) {
+  return make(options_from<Options>(name, parameters));
+}
+
+template <class Options>
+void require_with(const std::string& name, const Parameters& parameters) {
+  require_valid(options_from<Options>(name, parameters));
 }
 
 template <class Options>
@@ -60,12 +70,13 @@ std::vector<GeneratorParameter> parameters_of() {
 struct Generator {
   const char* name;
   Pslg (*make)(const std::string&, const Parameters&);
+  void (*require)(const std::string&, const Parameters&);
   std::vector<GeneratorParameter> (*parameters)();
 };
 
 template <class Options, Pslg (*make)(const Options&)>
 constexpr Generator generator(const char* name) {
-  return {name, generate_with<Options, make>, parameters_of<Options>};
+  return {name, generate_with<Options, make>, require_with<Options>, parameters_of<Options>};
 }
 
 constexpr Generator kGenerators[] = {generator<PipeOptions, generate_pipe>("pipe"),
@@ -95,6 +106,10 @@ std::vector<std::string> generator_names() {
 
 std::vector<GeneratorParameter> generator_parameters(const std::string& name) {
   return find_generator(name).parameters();
+}
+
+void require_generated(const std::string& name, const std::map<std::string, std::string>& parameters) {
+  find_generator(name).require(name, parameters);
 }
 
 Pslg generate(const std::string& name, const std::map<std::string, std::string>& parameters) {

@@ -1,8 +1,25 @@
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "driftmesh/generate.hpp"
 
 namespace driftmesh {
+
+// What generate_...() refuses before it makes anything: throws InputError.
+void require_valid(const PipeOptions& options);
+void require_valid(const CylinderFlowOptions& options);
+void require_valid(const BayOptions& options);
+void require_valid(const FanOptions& options);
+void require_valid(const CombOptions& options);
+void require_valid(const HolesOptions& options);
+void require_valid(const RectangleHoleOptions& options);
+void require_valid(const RandomPolygonOptions& options);
+void require_valid(const RandomPointsOptions& options);
+
+/// The same of an input by its name, and of parameters that it does not have, or whose values are no numbers.
+void require_generated(const std::string& name, const std::map<std::string, std::string>& parameters);
 
 // Visits the parameters of each generated input: visit(name, value, description), with their names in options and
 // files.

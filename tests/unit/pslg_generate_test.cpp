@@ -9,6 +9,7 @@
 #include "driftmesh/error.hpp"
 #include "driftmesh/generate.hpp"
 #include "driftmesh/repair.hpp"
+#include "pslg/generators.hpp"
 #include "pslg/noise.hpp"
 #include "pslg/open_boundary.hpp"
 #include "pslg/seeded_random.hpp"
@@ -225,4 +226,23 @@ TEST_CASE("bounds on a sum of noise from some of its octaves hold for all of it"
   CHECK(widest > 0.5);
   CHECK(below > 1000);
   CHECK(below < 2000);
+}
+
+TEST_CASE("what is refused before anything is made is what would be refused") {
+  int refused = 0, valid = 0;
+  const auto compare = [&](const std::string& name, const std::map<std::string, std::string>& parameters) {
+    CAPTURE(name);
+    const std::string before = error_text<InputError>([&] { require_generated(name, parameters); });
+    CHECK(before == error_text<InputError>([&] { static_cast<void>(generate(name, parameters)); }));
+    ++(before == "no error" ? valid : refused);
+  };
+  for (const std::string& name : generator_names()) {
+    compare(name, {});
+    compare(name, {{"nonsense", "1"}});
+    for (const GeneratorParameter& parameter : generator_parameters(name))
+      for (const char* const value : {"-1", "0", "0.3", "x"}) compare(name, {{parameter.name, value}});
+  }
+  compare("by", {});
+  CHECK(refused > 100);
+  CHECK(valid > 20);
 }
