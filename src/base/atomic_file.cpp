@@ -94,7 +94,7 @@ AtomicFile::AtomicFile(const std::string& path)
   else
     open();
   if (stream_ == nullptr) fail("cannot write");
-  buffer_ = std::make_unique<char[]>(kBufferBytes);
+  buffer_ = std::make_unique_for_overwrite<char[]>(kBufferBytes);
   std::setvbuf(stream_, buffer_.get(), _IOFBF, kBufferBytes);
 }
 

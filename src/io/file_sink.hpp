@@ -23,7 +23,7 @@ static_assert(std::endian::native == std::endian::little, "binary mesh files are
 /// called. Errors: FileError.
 class FileSink {
  public:
-  explicit FileSink(const std::string& path) : file_(path), buffer_(std::make_unique<char[]>(kBytes)) {}
+  explicit FileSink(const std::string& path) : file_(path), buffer_(std::make_unique_for_overwrite<char[]>(kBytes)) {}
 
   void text(std::string_view characters) { bytes(characters.data(), characters.size()); }
   void character(char c) { *room(1) = c, ++used_; }
