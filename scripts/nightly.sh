@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The tests of threads under the thread sanitizer, the property tests with new seeds, whether the tests notice mutated sources, the tests that scripts/test.sh does not run
-# under the other sanitizers, the wheel in roots of its own, 100,000 mutated files and 20,000 mutated meshes, read and checked under them by driftmesh-mutants, and
+# under the other sanitizers, a build with nothing but the standard library, the wheel in roots of its own, 100,000 mutated files and 20,000 mutated meshes, read and checked under them by driftmesh-mutants, and
 # a million adversarial schedules of real meshing with driftmesh-sim, and 100,000 in which ranks are killed and resumed, on all
 # cores: prints the failing seeds, and totals. The exit code is 0 if none fails.
 #   scripts/nightly.sh [--mutants FIRST..LAST] [--meshes FIRST..LAST]      which mutated files and meshes; 0..0: none
@@ -10,7 +10,7 @@
 #                      [--no-threads]                                     without the thread sanitizer
 #                      [--no-night]                                       without the tests with the label `night`
 #                      [--no-alone]                                       without compiling every header and source alone
-#                      [--no-wheel]                                       without building the wheel, and trying it, which take root's rights
+#                      [--no-wheel]                                       without building packages and wheel, and trying them, which take root's rights
 #                      [--no-mutation]                                    without asking which mutated sources the tests miss
 #                      [--mutants-program PATH] [--program PATH]          without a build first
 set -euo pipefail
@@ -89,6 +89,8 @@ if [[ $night == yes ]]; then
   ctest --preset asan-ubsan -L '^(night|long)$' --no-tests=error -j "$jobs" --timeout 600 || result=1
 fi
 if [[ $wheel == yes ]]; then
+  say "A build with nothing but the standard library"
+  { cmake --preset ci -Wno-dev && ctest --preset ci -L '^night$' --no-tests=error; } || result=1
   say "The wheel"
   rm -rf build/wheels
   { scripts/setup.sh wheel && packaging/wheel/build.sh --to build/wheels && packaging/wheel/try.sh build/wheels/driftmesh-*.whl; } || result=1
