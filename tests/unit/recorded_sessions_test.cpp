@@ -204,10 +204,10 @@ std::uint64_t digest_on_ranks(std::uint64_t seed, AdaptReport& sums) {
 }
 
 constexpr std::array<std::uint64_t, 16> kRecordedSessions{
-    0x9f3844ad97f57cdc, 0x92a6586c491c9a06, 0x45d0479596188ffd, 0xe6f8b344a9628db9, 0xb7bb63bffb03d757,
-    0xbf4668fa4a14abbe, 0x0fe1c34f7e5e6d67, 0xe2a1e952e08c4540, 0xdb0c6b2108622962, 0x54bf0742349f7ba8,
-    0xaf67fe5849b43117, 0xf07a499df091acb2, 0x045a4f68359c8ca3, 0x2715dc9a17d9d5c2, 0xc82bbaedb2336eaa,
-    0x00ec4c1de666f64b};
+    0x9f3844ad97f57cdc, 0x92a6586c491c9a06, 0x45d0479596188ffd, 0xe6f8b344a9628db9,
+    0xb7bb63bffb03d757, 0xbf4668fa4a14abbe, 0x0fe1c34f7e5e6d67, 0xe2a1e952e08c4540,
+    0xdb0c6b2108622962, 0x54bf0742349f7ba8, 0xaf67fe5849b43117, 0xf07a499df091acb2,
+    0x045a4f68359c8ca3, 0x2715dc9a17d9d5c2, 0xc82bbaedb2336eaa, 0x00ec4c1de666f64b};
 
 }  // namespace
 
