@@ -33,11 +33,10 @@ class AtTriangles final : public FieldTransfer {
   }
 
   void take(const Lineage::Change& change, const Overlaps& overlaps) override {
-    for (const Overlap& o : overlaps.found.overlaps)
-      for (std::size_t k = 0; k < components(); ++k) {
-        const double from = old()[place(change.old_number[o.old_triangle], k)];
-        values_[place(change.new_number[o.new_triangle], k)] += from * o.area * overlaps.correction[o.old_triangle];
-      }
+    for (std::size_t k = 0; k < components(); ++k) {
+      const double density = old()[place(change.old_number[overlaps.old_triangle], k)] * overlaps.correction;
+      for (const Overlap& o : overlaps.list) values_[place(change.new_number[o.new_triangle], k)] += density * o.area;
+    }
   }
 
   void end(const Lineage::Change& change) override {
@@ -61,9 +60,12 @@ class AtTriangles final : public FieldTransfer {
 class AtCorners final : public FieldTransfer {
  public:
   AtCorners(const Lineage& lineage, const Field& field)
-      : FieldTransfer(lineage, field), values_(3 * lineage.new_triangles() * components()) {}
+      : FieldTransfer(lineage, field),
+        values_(3 * lineage.new_triangles() * components()),
+        ranges_(lineage.after().parts.size()) {}
 
   void begin(const Lineage::Change& change) override {
+    ranges_[change.subdomain].resize(change.new_number.size() * components());
     visit_same_triangles(change, [&](std::int32_t triangle, std::int32_t from, int turn) {
       for (int i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < components(); ++k)
@@ -71,12 +73,28 @@ class AtCorners final : public FieldTransfer {
     });
   }
 
+  /// Sums up integrals with the function of each corner where the values will be.
   void take(const Lineage::Change& change, const Overlaps& overlaps) override {
-    const std::vector<Overlap>& list = overlaps.found.overlaps;
-    for (std::size_t first = 0, end = 0; first < list.size(); first = end) {
-      while (end < list.size() && list[end].new_triangle == list[first].new_triangle) ++end;
-      for (std::size_t k = 0; k < components(); ++k) project(change, overlaps, first, end, k);
+    for (const Overlap& o : overlaps.list) {
+      const Share share(overlaps, o, change);
+      for (std::size_t k = 0; k < components(); ++k) {
+        Range& range = range_of(change, o.new_triangle, k);
+        std::array<double, 3> at{};
+        for (int i = 0; i < 3; ++i) {
+          at[i] = old()[place(change.old_number[overlaps.old_triangle], i, k)];
+          range.add(at[i]);
+        }
+        const Weights more = share.moments(at);
+        for (int i = 0; i < 3; ++i) values_[place(change.new_number[o.new_triangle], i, k)] += more[i];
+      }
     }
+  }
+
+  void end(const Lineage::Change& change) override {
+    for (const TriangleId t : ids_of(change.new_number))
+      if (change.new_number[t] != kNone && !change.stays(t))
+        for (std::size_t k = 0; k < components(); ++k) project(change, t, k);
+    ranges_[change.subdomain] = {};
   }
 
   [[nodiscard]] std::vector<double> values() override { return std::move(values_); }
@@ -85,23 +103,15 @@ class AtCorners final : public FieldTransfer {
   [[nodiscard]] std::size_t place(std::int32_t triangle, int corner, std::size_t k) const {
     return (3 * to_index(triangle) + static_cast<std::size_t>(corner)) * components() + k;
   }
+  [[nodiscard]] Range& range_of(const Lineage::Change& change, TriangleId t, std::size_t k) {
+    return ranges_[change.subdomain][to_index(t) * components() + k];
+  }
 
-  /// The component of the triangle whose overlaps are those from `first` to `end`.
-  void project(const Lineage::Change& change, const Overlaps& overlaps, std::size_t first, std::size_t end,
-               std::size_t k) {
-    const TriangleId t = overlaps.found.overlaps[first].new_triangle;
-    Weights moments{};  // integrals with the function of each corner
-    Range range;
-    for (std::size_t j = first; j < end; ++j) {
-      const Overlap& o = overlaps.found.overlaps[j];
-      std::array<double, 3> at{};
-      for (int i = 0; i < 3; ++i) {
-        at[i] = old()[place(change.old_number[o.old_triangle], i, k)];
-        range.add(at[i]);
-      }
-      const Weights more = Share(o, overlaps.found.polygon(o), change, overlaps.correction[o.old_triangle]).moments(at);
-      for (int i = 0; i < 3; ++i) moments[i] += more[i];
-    }
+  /// Makes values of the integrals of a component in a new triangle.
+  void project(const Lineage::Change& change, TriangleId t, std::size_t k) {
+    Weights moments{};
+    for (int i = 0; i < 3; ++i) moments[i] = values_[place(change.new_number[t], i, k)];
+    const Range& range = range_of(change, t, k);
     const double all = moments[0] + moments[1] + moments[2], area = area_of(change.new_mesh, t);
     const double mean = all / area;
     std::array<double, 3> off_mean{};
@@ -115,6 +125,7 @@ class AtCorners final : public FieldTransfer {
   }
 
   std::vector<double> values_;
+  IdVector<SubdomainId, std::vector<Range>> ranges_;  // what each new triangle overlaps, between begin() and end()
 };
 
 }  // namespace

@@ -36,10 +36,10 @@ class AtPoints final : public FieldTransfer {
 
   void take(const Lineage::Change& change, const Overlaps& overlaps) override {
     std::vector<double>& moments = of_subdomain_[change.subdomain].moments;
-    for (const Overlap& o : overlaps.found.overlaps) {
-      const auto& from = change.old_mesh.triangles[o.old_triangle].vertex;
+    const auto& from = change.old_mesh.triangles[overlaps.old_triangle].vertex;
+    for (const Overlap& o : overlaps.list) {
       const auto& to = change.new_mesh.triangles[o.new_triangle].vertex;
-      const Share share(o, overlaps.found.polygon(o), change, overlaps.correction[o.old_triangle]);
+      const Share share(overlaps, o, change);
       for (std::size_t k = 0; k < components(); ++k) {
         std::array<double, 3> at{};
         for (int i = 0; i < 3; ++i) at[i] = old()[to_index(change.old_place[from[i]]) * components() + k];

@@ -20,7 +20,7 @@ class FieldTransfer {
 
   // What a subdomain has of the field, by one thread at a time; that of several subdomains at once.
   virtual void begin(const Lineage::Change& /*change*/) {}
-  /// Called for all overlaps, some at a time, those of a new triangle at once, if the field is conserved.
+  /// Called for each old triangle that is gone, if the field is conserved.
   virtual void take(const Lineage::Change& /*change*/, const Overlaps& /*overlaps*/) {}
   virtual void end(const Lineage::Change& /*change*/) {}
 

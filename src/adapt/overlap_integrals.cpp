@@ -4,39 +4,56 @@
 #include <vector>
 
 namespace driftmesh::adapt {
-
 namespace {
 
-constexpr std::size_t kAtOnce = 500'000;  // overlaps: some fifty megabytes
+/// The old triangles that do not stay, from each to one beside it, so that a search finds the next one near the last.
+class Gone {
+ public:
+  explicit Gone(const Lineage::Change& change) : mesh_(change.old_mesh), is_left_(mesh_.triangles.size(), false) {
+    for (const TriangleId t : ids_of(is_left_)) is_left_[t] = mesh_.triangles[t].alive();
+    for (const TriangleId from : change.descent.same)
+      if (from != kNone) is_left_[from] = false;
+  }
+
+  template <class Visit>
+  void visit(const Visit& visit) {
+    for (const TriangleId first : ids_of(is_left_)) {
+      enter(first);
+      while (!open_.empty()) {
+        const TriangleId t = open_.back();
+        open_.pop_back();
+        visit(t);
+        for (int i = 0; i < 3; ++i)
+          if (const HalfEdge beyond = mesh_.across(half_edge(t, i)); beyond != kNone) enter(triangle_of(beyond));
+      }
+    }
+  }
+
+ private:
+  void enter(TriangleId t) {
+    if (is_left_[t]) open_.push_back(t);
+    is_left_[t] = false;
+  }
+
+  const Triangulation& mesh_;
+  IdVector<TriangleId, bool> is_left_;
+  std::vector<TriangleId> open_;
+};
 
 }  // namespace
 
-Overlaps::Overlaps(const Lineage::Change& change, OverlapList room) : found(std::move(room)) {
-  found.overlaps.clear();
+void visit_overlaps(const Lineage::Change& change, const std::function<void(const Overlaps&)>& visit) {
   if (change.is_the_same) return;
-  stays_.assign(change.old_mesh.triangles.size(), false);
-  for (const TriangleId from : change.descent.same)
-    if (from != kNone) stays_[from] = true;
-  correction.assign(change.old_mesh.triangles.size(), 0);
-  const auto is_new = [&](TriangleId t) { return !change.stays(t); };
-  OverlapFinder finder(change.old_mesh, change.new_mesh, is_new);
-  for (; find(finder); ++left_)
-    for (const Overlap& o : found.overlaps) correction[o.old_triangle] += o.area;
-  if (left_ > 1) again_.emplace(change.old_mesh, change.new_mesh, is_new);
-  for (const TriangleId t : ids_of(change.old_mesh.triangles))
-    if (correction[t] > 0) correction[t] = area_of(change.old_mesh, t) / correction[t];
-}
-
-bool Overlaps::find(OverlapFinder& finder) {
-  if (!finder.find(kAtOnce, found)) return false;
-  std::erase_if(found.overlaps, [&](const Overlap& o) { return stays_[o.old_triangle]; });
-  return true;
-}
-
-bool Overlaps::next() {
-  if (left_ == 0) return false;
-  --left_;
-  return !again_ || find(*again_);
+  OverlapSearch search(change.old_mesh, change.new_mesh);
+  Overlaps overlaps;
+  Gone(change).visit([&](TriangleId t) {
+    search.find(t, overlaps);
+    double area = 0;
+    std::erase_if(overlaps.list, [&](const Overlap& o) { return change.stays(o.new_triangle); });
+    for (const Overlap& o : overlaps.list) area += o.area;
+    if (area > 0) overlaps.correction = area_of(change.old_mesh, t) / area;
+    visit(overlaps);
+  });
 }
 
 }  // namespace driftmesh::adapt

@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
+#include <functional>
 #include <span>
 
 #include "adapt/lineage.hpp"
@@ -21,11 +21,8 @@ using Weights = std::array<double, 3>;
 /// What an overlap adds to integrals over the new triangle.
 class Share {
  public:
-  Share(const Overlap& overlap, std::span<const Point> polygon, const Lineage::Change& change, double correction)
-      : in_old_(change.old_mesh, overlap.old_triangle, change.new_mesh.corner(overlap.new_triangle, 0), polygon[0]),
-        in_new_(change.new_mesh, overlap.new_triangle, change.new_mesh.corner(overlap.new_triangle, 0), polygon[0]) {
-    for (std::size_t i = 2; i < polygon.size(); ++i) add_triangle(polygon[i - 1], polygon[i], polygon[0], correction);
-  }
+  Share(const Overlaps& overlaps, const Overlap& overlap, const Lineage::Change& change)
+      : Share(overlaps, overlap, change, overlaps.polygon(overlap), change.new_mesh.corner(overlap.new_triangle, 0)) {}
 
   /// The integrals of the function that is linear in the old triangle, with these values at its corners, times that of
   /// each corner of the new one.
@@ -61,6 +58,14 @@ class Share {
     }
   };
 
+  Share(const Overlaps& overlaps, const Overlap& overlap, const Lineage::Change& change, std::span<const Point> polygon,
+        const Point& origin)
+      : in_old_(change.old_mesh, overlaps.old_triangle, origin, polygon[0]),
+        in_new_(change.new_mesh, overlap.new_triangle, origin, polygon[0]) {
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+      add_triangle(polygon[i - 1], polygon[i], polygon[0], overlaps.correction);
+  }
+
   void add_triangle(const Point& p, const Point& q, const Point& origin, double correction) {
     const double px = p.x - origin.x, py = p.y - origin.y, qx = q.x - origin.x, qy = q.y - origin.y;
     const double twice = correction * (px * qy - py * qx);
@@ -76,26 +81,8 @@ class Share {
   double area_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0, yy_ = 0;  // integrals of these over the overlap
 };
 
-/// What the new triangles of a subdomain overlap of those that are gone: all at once, or some at a time where there are
-/// so many that they are found twice rather than kept.
-class Overlaps {
- public:
-  /// Other triangles have no overlaps but for rounding. `room`: memory for them.
-  Overlaps(const Lineage::Change& change, OverlapList room);
-
-  /// Goes on to the first ones, then to the next; false after the last.
-  bool next();
-
-  OverlapList found;
-  IdVector<TriangleId, double>
-      correction{};  ///< an old triangle's area over the sum of its overlaps: 1 but for rounding
-
- private:
-  bool find(OverlapFinder& finder);
-
-  IdVector<TriangleId, bool> stays_;  // old triangles
-  std::optional<OverlapFinder> again_;
-  int left_ = 0;  // times that next() will find some
-};
+/// Calls visit(overlaps) for each old triangle that is gone, with those new triangles that do not stay: others have
+/// none but for rounding.
+void visit_overlaps(const Lineage::Change& change, const std::function<void(const Overlaps&)>& visit);
 
 }  // namespace driftmesh::adapt

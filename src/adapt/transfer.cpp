@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <mutex>
 #include <utility>
 
 #include "adapt/field_transfer.hpp"
@@ -10,27 +9,6 @@
 
 namespace driftmesh::adapt {
 namespace {
-
-/// Memory that goes from one subdomain to the next: fresh pages would take as long as what is put into them. For
-/// several threads.
-class SpareRoom {
- public:
-  [[nodiscard]] OverlapList take() {
-    const std::lock_guard lock(mutex_);
-    if (rooms_.empty()) return {};
-    OverlapList room = std::move(rooms_.back());
-    rooms_.pop_back();
-    return room;
-  }
-  void give(OverlapList room) {
-    const std::lock_guard lock(mutex_);
-    rooms_.push_back(std::move(room));
-  }
-
- private:
-  std::mutex mutex_;
-  std::vector<OverlapList> rooms_;
-};
 
 std::unique_ptr<FieldTransfer> transfer_of(const Lineage& lineage, const Field& field) {
   if (field.how == Transfer::kInterpolate) return std::make_unique<Interpolation>(lineage, field);
@@ -66,16 +44,13 @@ std::vector<std::vector<double>> transferred(const Lineage& lineage, std::span<c
     stayed->points.assign(lineage.new_points(), -1);
     stayed->triangles.assign(lineage.new_triangles(), -1);
   }
-  SpareRoom spare;
   lineage.visit_parts([&](const Lineage::Change& change) {
     if (stayed != nullptr) note(lineage, change, *stayed);
     for (const auto& transfer : transfers) transfer->begin(change);
-    if (any_is_conserved) {
-      Overlaps overlaps(change, spare.take());
-      while (overlaps.next())
+    if (any_is_conserved)
+      visit_overlaps(change, [&](const Overlaps& overlaps) {
         for (const auto& transfer : transfers) transfer->take(change, overlaps);
-      spare.give(std::move(overlaps.found));
-    }
+      });
     for (const auto& transfer : transfers) transfer->end(change);
   });
   std::vector<std::vector<double>> values;

@@ -313,23 +313,6 @@ TEST_CASE("conserving transfer keeps integrals, bounds and constants") {
   CHECK(joined > 0);
 }
 
-TEST_CASE("transfer conserves integrals where a subdomain has more overlaps than are kept at once") {
-  AdaptiveMesh mesh(square(), {.max_area = 1.1e-5, .threads = 1, .subdomains = {.count = 1}});
-  std::vector<double> values;
-  for (const auto& t : mesh.mesh().triangles) values.push_back(1 + std::sin(9 * mesh.mesh().points[t[0]].x));
-  const auto integral = [&](const auto& of_triangles) {
-    double sum = 0;
-    for (std::size_t t = 0; t < of_triangles.size(); ++t) sum += of_triangles[t] * area_of(mesh.mesh(), t);
-    return sum;
-  };
-  const double before = integral(values);
-  mesh.attach("u", values, FieldPlace::kTriangles, Transfer::kConserve);
-  mesh.adapt(std::vector<double>(mesh.mesh().points.size(), 0.0036));
-  CHECK(mesh.report().remade == 1);
-  CHECK(mesh.mesh().triangles.size() > 150'000);  // with the old ones beneath each
-  CHECK(integral(mesh.field("u")) == doctest::Approx(before).epsilon(1e-11));
-}
-
 TEST_CASE("what is as it should be stays") {
   AdaptiveMesh mesh(square(), {.max_area = 1e-3, .threads = 1});
   const auto length = [](const Point& p) { return 0.02 + 0.1 * std::hypot(p.x - 0.3, p.y - 0.4); };

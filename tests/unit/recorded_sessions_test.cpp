@@ -204,10 +204,10 @@ std::uint64_t digest_on_ranks(std::uint64_t seed, AdaptReport& sums) {
 }
 
 constexpr std::array<std::uint64_t, 16> kRecordedSessions{
-    0x9f3844ad97f57cdc, 0x92a6586c491c9a06, 0x45d0479596188ffd, 0xe6f8b344a9628db9,
-    0xb7bb63bffb03d757, 0xbf4668fa4a14abbe, 0x0fe1c34f7e5e6d67, 0xe2a1e952e08c4540,
-    0xdb0c6b2108622962, 0x54bf0742349f7ba8, 0xaf67fe5849b43117, 0xf07a499df091acb2,
-    0x045a4f68359c8ca3, 0x2715dc9a17d9d5c2, 0xc82bbaedb2336eaa, 0x00ec4c1de666f64b};
+    0x0ce1e285a1152cd0, 0x5ed05b907e78f4bd, 0x88b3df819714383a, 0xb8ba4eb479c0a397,
+    0x39ba52655e7c6da9, 0x65a235d3d4604d53, 0x68eca9023b355877, 0xf94c70a4d6939415,
+    0xf3fac3da1983affc, 0x77687da88acb612a, 0x726dc4a3c7c8a338, 0x534c543cebd8e002,
+    0x7033ce893fb0f570, 0xf11978fd8600ffde, 0xcb6d95671b9750ab, 0xf7f435ccb7340698};
 
 }  // namespace
 
