@@ -1,6 +1,7 @@
 #include "errors.hpp"
 
 #include <exception>
+#include <string_view>
 #include <utility>
 
 #include "api/library_request.hpp"
@@ -44,7 +45,9 @@ void translate_errors() {
 }
 
 std::string words_of_python(const std::string& key) {
-  return library_name(key).member;
+  const std::string member = library_name(key).member;
+  const std::string_view sizes = "sizes.";  // their members are arguments of adapt_part
+  return member.starts_with(sizes) ? member.substr(sizes.size()) : member;
 }
 
 }  // namespace driftmesh::python

@@ -10,6 +10,7 @@
 #include "adapt/length_growth.hpp"
 #include "adapt/of_all_parts.hpp"
 #include "adapt/shared_points.hpp"
+#include "base/formatted.hpp"
 #include "base/in_turns.hpp"
 #include "driftmesh/error.hpp"
 
@@ -28,8 +29,10 @@ void require_lengths(const Generation& present, std::span<const double> lengths)
                 " points; give one for each point of the present mesh");
   const auto wrong = std::ranges::find_if(lengths, [](double h) { return !(h > 0); });
   if (wrong != lengths.end())
-    throw Error("adapt: the length at point " + std::to_string(wrong - lengths.begin()) + " (counted from 0) is " +
-                std::to_string(*wrong) + "; a length must be positive, or infinite for no bound");
+    throw Error(
+        formatted("adapt: the length at point {} (counted from 0) is {}; a length must be positive, or infinite for no "
+                  "bound",
+                  wrong - lengths.begin(), *wrong));
 }
 
 /// The least of what all ranks have at the points of their pieces.

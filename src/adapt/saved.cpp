@@ -104,7 +104,10 @@ void save(const std::string& path, const SavedHead& head, const Packing& packing
 
 Saved read_saved(const std::string& path, Ranks& ranks) {
   Saved saved;
-  ranks.agree([&] { saved = read_own(path, ranks); });
+  ranks.agree([&] {
+    if (path.empty()) throw Error("load: the name of the file is empty; give that of a file that save() wrote");
+    saved = read_own(path, ranks);
+  });
   return saved;
 }
 

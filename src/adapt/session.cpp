@@ -15,6 +15,7 @@
 #include "base/bytes.hpp"
 #include "base/formatted.hpp"
 #include "base/in_turns.hpp"
+#include "base/key_error.hpp"
 #include "base/stopwatch.hpp"
 #include "driftmesh/error.hpp"
 
@@ -22,16 +23,17 @@ namespace driftmesh::adapt {
 namespace {
 
 void require_sound(const AdaptiveOptions& options) {
-  const auto require = [](bool sound, const char* name, double value, const char* rule) {
+  const auto require = [](bool sound, const char* key, double value, const KeyText& rule) {
     if (!sound)
-      throw Error(std::string("AdaptiveOptions::") + name + " is " + std::to_string(value) + "; it must be " + rule);
+      throw Keyed<Error>(KeyText::of("{} is {}; it must be {}", KeyText::key(key), formatted("{}", value), rule));
   };
-  require(options.shortest >= 0, "shortest", options.shortest, "at least 0");
-  require(options.longest > 0 && options.longest >= options.shortest, "longest", options.longest,
-          "positive, and not below shortest");
-  require(options.gradation >= 0, "gradation", options.gradation, "at least 0");
-  require(options.coarsening >= 0 && options.coarsening < 1, "coarsening", options.coarsening, "from 0 up to 1");
-  require(options.most_triangles >= 0, "most_triangles", options.most_triangles, "at least 0");
+  require(options.shortest >= 0, "adaptive.shortest", options.shortest, "at least 0");
+  require(options.longest > 0 && options.longest >= options.shortest, "adaptive.longest", options.longest,
+          KeyText::of("positive, and not below {adaptive.shortest}, which is {}", formatted("{}", options.shortest)));
+  require(options.gradation >= 0, "adaptive.gradation", options.gradation, "at least 0");
+  require(options.coarsening >= 0 && options.coarsening < 1, "adaptive.coarsening", options.coarsening,
+          "at least 0, and below 1");
+  require(options.most_triangles >= 0, "adaptive.most_triangles", options.most_triangles, "at least 0");
 }
 
 Fields fields_without_values(const Fields& fields) {
@@ -169,6 +171,9 @@ Session::Session(Saved saved, std::function<void(Mesh&)> finish, const Means& me
 
 void Session::save(const std::string& path, Bytes more, const Means& means) {
   require_same_call("save, to '" + path + "'", means.ranks);
+  means.ranks.agree([&] {
+    if (path.empty()) throw Error("save: the name of the file is empty; give one, such as 'mesh.h5'");
+  });
   take_from_owners(fields_, present_.piece, means.ranks);
   SavedHead head{.plan = plan_,
                  .shares = shares_,

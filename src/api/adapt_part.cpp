@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "api/library_request.hpp"
 #include "base/cores.hpp"
+#include "base/formatted.hpp"
+#include "base/key_error.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/repair.hpp"
 #include "mesh/bounds.hpp"
@@ -14,19 +17,20 @@ namespace driftmesh {
 namespace {
 
 void require_in_range(const PartOptions& options) {
-  const auto require = [](bool sound, const std::string& name, double value, const std::string& rule) {
-    if (!sound) throw Error("PartOptions::" + name + " is " + std::to_string(value) + "; it must be " + rule);
+  const auto require = [](bool sound, const char* key, double value, const KeyText& rule) {
+    if (!sound)
+      throw Keyed<Error>(KeyText::of("{} is {}; it must be {}", KeyText::key(key), formatted("{}", value), rule));
   };
   const AdaptiveOptions& sizes = options.sizes;
-  require(sizes.shortest >= 0, "sizes.shortest", sizes.shortest, "at least 0");
-  require(sizes.longest > 0 && sizes.longest >= sizes.shortest, "sizes.longest", sizes.longest,
-          "positive, and not below shortest");
-  require(sizes.gradation >= 0, "sizes.gradation", sizes.gradation, "at least 0");
-  require(sizes.most_triangles >= 0, "sizes.most_triangles", sizes.most_triangles, "at least 0");
-  require(options.min_angle >= 0 && options.min_angle <= kMaxAngle, "min_angle", options.min_angle,
-          "from 0 to " + std::to_string(kMaxAngle) + " degrees");
-  require(options.threads >= 0, "threads", options.threads, "at least 0");
-  require(options.tolerance >= 0, "tolerance", options.tolerance, "at least 0");
+  require(sizes.shortest >= 0, "part.sizes.shortest", sizes.shortest, "at least 0");
+  require(sizes.longest > 0 && sizes.longest >= sizes.shortest, "part.sizes.longest", sizes.longest,
+          KeyText::of("positive, and not below {part.sizes.shortest}, which is {}", formatted("{}", sizes.shortest)));
+  require(sizes.gradation >= 0, "part.sizes.gradation", sizes.gradation, "at least 0");
+  require(sizes.most_triangles >= 0, "part.sizes.most_triangles", sizes.most_triangles, "at least 0");
+  require(options.min_angle >= 0 && options.min_angle <= kMaxAngle, "part.min_angle", options.min_angle,
+          formatted("from 0 to {} degrees", kMaxAngle));
+  require(options.threads >= 0, "part.threads", options.threads, "at least 0");
+  require(options.tolerance >= 0, "part.tolerance", options.tolerance, "at least 0");
 }
 
 std::vector<adapt::Field> fields_of(Mesh& mesh, const std::vector<std::string>& conserve) {
@@ -34,7 +38,7 @@ std::vector<adapt::Field> fields_of(Mesh& mesh, const std::vector<std::string>& 
   for (const std::string& name : conserve) {
     const auto found = std::ranges::find(named, name, &patch::NamedField::name);
     if (found == named.end())
-      throw Error("the mesh has no point data '" + name + "', which PartOptions::conserve names");
+      throw Keyed<Error>(KeyText::of("the mesh has no point data '{}', which {part.conserve} names", name));
     found->field.how = Transfer::kConserve;
     adapt::require_summable(name, found->field);
   }
@@ -48,11 +52,14 @@ AdaptedMesh adapted(Mesh mesh, patch::Order order, const PartOptions& options) {
   order.options = options.sizes;
   order.min_angle = options.min_angle;
   order.threads = threads_or_cores(options.threads);
-  if (order.domain != nullptr && !options.conserve.empty())
-    throw Error(
-        "the integral of '" + options.conserve.front() +
-        "', which PartOptions::conserve names, cannot stay where the domain becomes another one; interpolate it");
-  std::vector<adapt::Field> fields = fields_of(mesh, options.conserve);
+  std::vector<adapt::Field> fields = in_words_of_library([&] {
+    if (order.domain != nullptr && !options.conserve.empty())
+      throw Keyed<Error>(
+          KeyText::of("the integral of '{}', which {part.conserve} names, cannot stay where the domain becomes another "
+                      "one; interpolate it",
+                      options.conserve.front()));
+    return fields_of(mesh, options.conserve);
+  });
   patch::Remade remade = patch::remake(std::move(mesh), std::move(fields), std::move(order));
   patch::give_point_data(remade.mesh, remade.fields);
   return {.mesh = std::move(remade.mesh),
@@ -66,7 +73,7 @@ AdaptedMesh adapted(Mesh mesh, patch::Order order, const PartOptions& options) {
 }  // namespace
 
 AdaptedMesh adapt_part(Mesh mesh, std::span<const std::int32_t> triangles, const PartOptions& options) {
-  require_in_range(options);
+  in_words_of_library([&] { require_in_range(options); });
   patch::Order order{.inside = std::vector<bool>(mesh.triangles.size(), false)};
   for (const std::int32_t t : triangles) {
     if (t < 0 || std::cmp_greater_equal(t, mesh.triangles.size()))
@@ -78,7 +85,7 @@ AdaptedMesh adapt_part(Mesh mesh, std::span<const std::int32_t> triangles, const
 }
 
 AdaptedMesh adapt_outline(Mesh mesh, const Pslg& domain, const PartOptions& options) {
-  require_in_range(options);
+  in_words_of_library([&] { require_in_range(options); });
   patch::NewDomain now{domain, options.tolerance, "domain"};
   repair(now.pslg, now.name);
   if (now.tolerance == 0) now.tolerance = patch::rounding_of_midpoints(mesh.points);

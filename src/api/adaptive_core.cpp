@@ -64,11 +64,12 @@ void AdaptiveCore::require_rest() const {
 /// Calls work(hooks), which calls functions of the caller, unless one of them asks for that.
 template <class Work>
 void AdaptiveCore::advance(const Work& work) {
+  constexpr const char* kLeft = "The mesh is as it was";
   require_rest();
   const adapt::Hooks hooks{
       .progress = [this](std::int64_t triangles, double forecast) { watch_.refining(triangles, forecast); },
-      .check = [this](std::int64_t triangles) { job::check_limits(limits_, triangles); },
-      .check_all = [this](std::int64_t triangles) { job::check_number(limits_, triangles); }};
+      .check = [this](std::int64_t triangles) { job::check_limits(limits_, triangles, kLeft); },
+      .check_all = [this](std::int64_t triangles) { job::check_number(limits_, triangles, kLeft); }};
   busy_ = true;
   try {
     work(hooks);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <string_view>
+#include <utility>
 
 namespace driftmesh {
 namespace {
@@ -33,13 +35,15 @@ job::Request request_of(const MeshOptions& options) {
 
 LibraryName library_name(const std::string& key) {
   static const std::map<std::string, LibraryName> names = library_names();
-  const auto found = names.find(key);
+  if (const auto found = names.find(key); found != names.end()) return found->second;
+  for (const auto& [section, owner] : {std::pair("adaptive.", "AdaptiveOptions::"), {"part.", "PartOptions::"}})
+    if (key.starts_with(section)) return {owner, key.substr(std::string_view(section).size())};
   if (const std::string section = "cluster."; key.starts_with(section)) {
     std::string member = key.substr(section.size());
     std::ranges::replace(member, '-', '_');
     return {"SimulatedCluster::", member};
   }
-  return found != names.end() ? found->second : LibraryName{kOfOptions, key};
+  return {kOfOptions, key};
 }
 
 std::string words_of_library(const std::string& key) {

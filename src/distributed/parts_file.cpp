@@ -70,6 +70,9 @@ void require_format(const Hdf5Bytes& file, const PartsFormat& format, const std:
   for (const PartsFormat& other : {kAdaptiveMeshFile, kCheckpointFile})
     if (!file.has(format.head) && file.has(other.head))
       throw InputError({path, 0}, formatted("is {}, not {}", other.what, format.what), other.use);
+  if (file.is_mesh())
+    throw InputError({path, 0}, formatted("is a mesh alone, not {}", format.what),
+                     formatted("give a file that {} wrote", format.source));
   if (file.version() != format.version)
     throw InputError({path, 0},
                      formatted("is {} of version {}, but this driftmesh reads version {}", format.what, file.version(),

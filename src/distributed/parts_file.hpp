@@ -22,9 +22,12 @@ struct PartsFormat {
   std::int64_t version;  ///< that is written and read
   const char* what;      ///< "an adaptive mesh"
   const char* use;       ///< what such a file is for: "load it with ..."
+  const char* source;    ///< what writes one
 };
-inline constexpr PartsFormat kAdaptiveMeshFile{"session", 2, "an adaptive mesh", "load it with AdaptiveMesh::load"};
-inline constexpr PartsFormat kCheckpointFile{"run", 1, "a checkpoint", "go on with driftmesh mesh --resume"};
+inline constexpr PartsFormat kAdaptiveMeshFile{"session", 2, "an adaptive mesh", "load it with AdaptiveMesh::load",
+                                               "save() of one or driftmesh mesh --save"};
+inline constexpr PartsFormat kCheckpointFile{"run", 1, "a checkpoint", "go on with driftmesh mesh --resume",
+                                             "driftmesh mesh --checkpoint"};
 
 /// Writes one HDF5 file: what rank 0 has in `heads`, by the names of their arrays, and a part for each of `count`
 /// subdomains, from the rank that has it. All is sealed with checksums. `own`: the bytes that the parts of this rank

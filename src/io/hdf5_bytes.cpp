@@ -77,6 +77,9 @@ Hdf5Bytes::Hdf5Bytes(const std::string& path) : path_(path) {
   if (!file.is_open()) throw InputError({path, 0}, "is not an HDF5 file, or is damaged", "was it written completely?");
   const Hdf5Handle number(H5Aexists(file.id(), kVersion) > 0 ? H5Aopen(file.id(), kVersion, H5P_DEFAULT) : hid_t{-1},
                           H5Aclose);
+  is_mesh_ = !number.is_open() && H5Lexists(file.id(), "geometry", H5P_DEFAULT) > 0 &&
+             H5Lexists(file.id(), "viz", H5P_DEFAULT) > 0;
+  if (is_mesh_) return;
   const Hdf5Handle extent(number.is_open() ? H5Aget_space(number.id()) : hid_t{-1}, H5Sclose);
   if (!number.is_open() || H5Sget_simple_extent_npoints(extent.id()) != 1 ||
       H5Aread(number.id(), H5T_NATIVE_INT64, &version_) < 0)

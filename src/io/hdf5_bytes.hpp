@@ -28,6 +28,8 @@ class Hdf5Bytes {
   /// Throws InputError if it is none, or has content elsewhere (see require_own_content); FileError.
   explicit Hdf5Bytes(const std::string& path);
 
+  /// Whether it is a file of a mesh instead, which has no version.
+  [[nodiscard]] bool is_mesh() const { return is_mesh_; }
   [[nodiscard]] std::int64_t version() const { return version_; }
   [[nodiscard]] bool has(const std::string& array) const { return arrays_.contains(array); }
   /// Throws InputError if the file has no such array, or ends before these bytes do.
@@ -42,6 +44,7 @@ class Hdf5Bytes {
   [[nodiscard]] const Array& array(const std::string& name) const;
 
   std::string path_;
+  bool is_mesh_ = false;
   std::int64_t version_ = 0;
   std::map<std::string, Array> arrays_;
 };

@@ -121,19 +121,19 @@ bool memory_is_full(const Limits& limits, std::int64_t triangles) {
 
 namespace {
 
-[[noreturn]] void stop_at(const Limits& limits, bool by_memory, std::int64_t triangles) {
-  throw Keyed<LimitError>(KeyText::of("{}. No mesh was written", stopped_message(limits, by_memory, triangles, true)));
+[[noreturn]] void stop_at(const Limits& limits, bool by_memory, std::int64_t triangles, const char* left) {
+  throw Keyed<LimitError>(KeyText::of("{}. {}", stopped_message(limits, by_memory, triangles, true), left));
 }
 
 }  // namespace
 
-void check_limits(const Limits& limits, std::int64_t triangles) {
-  check_number(limits, triangles);
-  if (memory_is_full(limits, triangles)) stop_at(limits, true, triangles);
+void check_limits(const Limits& limits, std::int64_t triangles, const char* left) {
+  check_number(limits, triangles, left);
+  if (memory_is_full(limits, triangles)) stop_at(limits, true, triangles, left);
 }
 
-void check_number(const Limits& limits, std::int64_t triangles) {
-  if (triangles > limits.triangles) stop_at(limits, false, triangles);
+void check_number(const Limits& limits, std::int64_t triangles, const char* left) {
+  if (triangles > limits.triangles) stop_at(limits, false, triangles, left);
 }
 
 double room_for(const Limits& limits, std::int64_t triangles) {

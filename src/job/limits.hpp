@@ -68,10 +68,11 @@ void reuse_memory(const Request::Limits& asked);
 [[nodiscard]] bool memory_is_full(const Limits& limits, std::int64_t triangles);
 
 /// Throws LimitError if a process that has made this many triangles, none of which is kept, has reached a limit.
-void check_limits(const Limits& limits, std::int64_t triangles);
+/// `left`: a sentence about what there is then.
+void check_limits(const Limits& limits, std::int64_t triangles, const char* left = "No mesh was written");
 
 /// The same for all processes together, as to the number of triangles alone.
-void check_number(const Limits& limits, std::int64_t triangles);
+void check_number(const Limits& limits, std::int64_t triangles, const char* left = "No mesh was written");
 
 /// For how many more triangles a process that has made this many has memory, with a tenth of it left over: more than
 /// that it should not take from others.

@@ -72,6 +72,15 @@ class AdaptPart(unittest.TestCase):
             driftmesh.adapt_part(mesh, [0], conserve=["heat"])
         with self.assertRaisesRegex(driftmesh.Error, "min_angle is 50"):
             driftmesh.adapt_part(mesh, [0], min_angle=50)
+        for wrong, text in (({"longest": 0}, "^longest is 0; .* not below shortest, which is 0$"), ({"gradation": -1e-9}, "^gradation is -1e-09;"),
+                            ({"conserve": ["heat"]}, "'heat', which conserve names")):
+            with self.assertRaisesRegex(driftmesh.Error, text):
+                driftmesh.adapt_part(mesh, [0], **wrong)
+        heat = np.ones(len(mesh.points))
+        heat[3] = np.nan
+        data = driftmesh.Mesh(mesh.points, mesh.triangles, edges=mesh.edges, attributes=heat)
+        with self.assertRaisesRegex(driftmesh.Error, "'attribute' is nan at point 3"):
+            driftmesh.adapt_part(data, [0], conserve=["attribute"])
         with self.assertRaises(driftmesh.LimitError):
             driftmesh.adapt_part(mesh, range(len(mesh.triangles)), longest=0.01, most_triangles=100)
         with self.assertRaises(driftmesh.InputError):

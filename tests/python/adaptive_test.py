@@ -115,8 +115,50 @@ class Adaptive(unittest.TestCase):
             plate.attach("u", np.ones(count), where="edges")
         with self.assertRaisesRegex(TypeError, "max_aera"):
             driftmesh.AdaptiveMesh(PLATE, max_aera=1)
-        with self.assertRaisesRegex(driftmesh.Error, "gradation"):
-            driftmesh.AdaptiveMesh(PLATE, gradation=-1)
+        for wrong, text in (({"gradation": -1e-9}, "^gradation is -1e-09; it must be at least 0$"),
+                            ({"coarsening": 1}, "^coarsening is 1; it must be at least 0, and below 1$"),
+                            ({"longest": 0.5, "shortest": 1}, "^longest is 0.5; .* not below shortest, which is 1$")):
+            with self.assertRaisesRegex(driftmesh.Error, text):
+                driftmesh.AdaptiveMesh(PLATE, **wrong)
+        with self.assertRaisesRegex(driftmesh.Error, "name of the file is empty"):
+            plate.save("")
+        with self.assertRaisesRegex(driftmesh.Error, "name of the file is empty"):
+            driftmesh.AdaptiveMesh.load("")
+
+    def test_a_value_that_cannot_be_conserved_is_refused(self):
+        plate = driftmesh.AdaptiveMesh(PLATE, max_area=0.01)
+        points, count = len(plate.mesh.points), len(plate.mesh.triangles)
+        before, lengths = plate.mesh.triangles.copy(), np.full(points, 0.05)
+        for where, shape, place in (("points", (points, 2), (7, 1)), ("triangles", count, 7), ("corners", (count, 3), (7, 2))):
+            for wrong in (np.nan, np.inf, -np.inf, 1e300):
+                values = np.ones(shape)
+                values[place] = wrong
+                plate.attach("mass", values, where=where, transfer="conserve")
+                kind = "point" if where == "points" else "triangle"
+                with self.assertRaisesRegex(driftmesh.Error, f"^field 'mass' is {wrong:g} at {kind} 7 ".replace("+", r"\+")):
+                    plate.adapt(lengths)
+                np.testing.assert_array_equal(plate.mesh.triangles, before)
+                np.testing.assert_array_equal(plate.field("mass"), values)
+        plate.detach("mass")
+        values = np.ones(points)
+        values[7] = np.nan
+        plate.attach("gauge", values)
+        plate.adapt(lengths)
+        self.assertTrue(np.isnan(plate.field("gauge")).any())
+
+    def test_a_limit_leaves_the_mesh_as_it_was(self):
+        plate = driftmesh.AdaptiveMesh(PLATE, max_area=0.01, max_triangles=400)
+        before = plate.mesh.triangles.copy()
+        with self.assertRaisesRegex(driftmesh.LimitError, r"max_triangles.*\. The mesh is as it was$"):
+            plate.adapt(np.full(len(plate.mesh.points), 0.02))
+        np.testing.assert_array_equal(plate.mesh.triangles, before)
+
+    def test_a_mesh_alone_is_no_session(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "plate.h5"
+            driftmesh.mesh(PLATE, max_area=0.01).write(path)
+            with self.assertRaisesRegex(driftmesh.InputError, "plate.h5: is a mesh alone, not an adaptive mesh; give"):
+                driftmesh.AdaptiveMesh.load(path)
 
     def test_saved_and_loaded(self):
         plate = driftmesh.AdaptiveMesh(PLATE, max_area=0.01, threads=1)

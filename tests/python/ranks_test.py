@@ -267,6 +267,18 @@ class Adaptive(unittest.TestCase):
                 flow.attach("v", np.ones((count, 2, 2) if last else (count, 4)))
         with self.assertRaises((driftmesh.Error, ZeroDivisionError)):
             flow.adapt(lambda x, y: 1 / 0 if last else 5.0)
+        values = np.ones(count)
+        if last:
+            values[flow.piece.owners == WORLD.rank] = np.nan
+        flow.attach("w", values, transfer="conserve")
+        with self.assertRaisesRegex(driftmesh.Error, f"rank {WORLD.size - 1}: field 'w' is nan at point" if WORLD.size > 1 else "'w' is nan"):
+            flow.adapt(np.full(count, 5.0))
+        flow.detach("w")
+        with self.assertRaisesRegex(driftmesh.Error, "^gradation is -1|: gradation is -1"):
+            driftmesh.DistributedAdaptiveMesh(WORLD, PIPE, gradation=-1)
+        for wrong in (lambda: flow.save(""), lambda: driftmesh.DistributedAdaptiveMesh.load(WORLD, "")):
+            with self.assertRaisesRegex(driftmesh.Error, "name of the file is empty"):
+                wrong()
         with self.assertRaises((driftmesh.Error, TypeError)):
             driftmesh.DistributedAdaptiveMesh(WORLD, 3 if last else PIPE)
         flow.adapt(np.full(count, 5.0))

@@ -13,8 +13,9 @@ import re
 import sys
 
 TABLE = "src/job/key_table.cpp"
-# What no key can hold: functions of the library's callers, and an option of the commands that read meshes.
-OTHERS = {"progress", "warning", "balance.own", "subdomains.given", "allow-outside"}
+# What no key can hold: functions of the library's callers, options of its sessions and parts, and one of the commands that read meshes.
+OTHERS = {"progress", "warning", "balance.own", "subdomains.given", "adaptive.shortest", "part.conserve", "part.sizes.shortest",
+          "allow-outside"}
 
 # The command line says "--area", in help and in messages of its own, also those of studies; experiments know --set.
 COMMAND_LINE = ["src/app", "src/cli", "src/config", "src/study"]

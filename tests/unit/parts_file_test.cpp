@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "driftmesh/driftmesh.hpp"
 #include "driftmesh/error.hpp"
 #include "io/hdf5_bytes.hpp"
 #include "support/error_text.hpp"
@@ -70,6 +71,10 @@ TEST_CASE("a file of another kind or version is refused by name") {
   CHECK(mentions(error_of(named("later")), {"later", "a checkpoint of version 7", "reads version 1"}));
   (void)create_hdf5_bytes(named("foreign"), "foreign", 1, {{"other", 8}});
   CHECK(mentions(error_of(named("foreign")), {"foreign", "has no array"}));
+  write_mesh(mesh(generate("rectangle-hole"), {.max_area = 0.1}), named("mesh.h5"));
+  CHECK(
+      mentions(error_of(named("mesh.h5")), {"is a mesh alone, not a checkpoint", "driftmesh mesh --checkpoint wrote"}));
+  CHECK(!is_parts_file(named("mesh.h5"), kCheckpointFile));
   std::ofstream(named("text")) << "none";
   CHECK(mentions(error_of(named("text")), {"text", "is not an HDF5 file"}));
   CHECK(mentions(error_of(named("none")), "none"));

@@ -19,12 +19,11 @@ namespace {
 
 std::vector<job::RankSetting> settings_of(const AdaptiveOptions& options) {
   const auto setting = [](const char* name, double value) {
-    return job::RankSetting{KeyText(name), formatted("{}", value)};
+    return job::RankSetting{KeyText::key(name), formatted("{}", value)};
   };
-  return {setting("AdaptiveOptions::shortest", options.shortest), setting("AdaptiveOptions::longest", options.longest),
-          setting("AdaptiveOptions::gradation", options.gradation),
-          setting("AdaptiveOptions::coarsening", options.coarsening),
-          setting("AdaptiveOptions::most_triangles", options.most_triangles)};
+  return {setting("adaptive.shortest", options.shortest), setting("adaptive.longest", options.longest),
+          setting("adaptive.gradation", options.gradation), setting("adaptive.coarsening", options.coarsening),
+          setting("adaptive.most_triangles", options.most_triangles)};
 }
 
 }  // namespace
