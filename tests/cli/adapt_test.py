@@ -500,6 +500,9 @@ class Errors(Adapt):
         self.refuse("adapt", "old.vtu", "--lengths", "h", "--transfer", "w", "-o", "new.vtu", says=["'w'", "--transfer"])
         self.refuse("adapt", "old.vtu", "--lengths", "h", "--transfer", "h=sometimes", "-o", "new.vtu", code=2,
                     says=["sometimes", "conserve"])
+        self.refuse("adapt", "old.vtu", "--lengths", "h", "--transfer", "nan=conserve", "-o", "new.vtu",
+                    says=["old.vtu", "'nan' is nan at point", "cannot be conserved"])
+        self.succeed("adapt", "old.vtu", "--lengths", "h", "--transfer", "nan", "-o", "kept.vtu")
         self.refuse("adapt", "old.vtu", "-o", "new.vtu", code=2, says=["--lengths", "--max-length", "--only"])
         self.refuse("adapt", "old.vtu", "--min-length", 1, "--max-length", 0.5, "-o", "new.vtu", code=2,
                     says=["--min-length is 1", "--max-length 0.5"])

@@ -486,6 +486,19 @@ TEST_CASE("wrong use on one rank is one clear error on all, and changes nothing"
     CHECK(session.shape("w").empty());
     session.detach("w", means);
     CHECK(mentions(error_text([&] { static_cast<void>(session.shape("w")); }), "no field 'w'"));
+    REQUIRE(session.piece().ranks > 1);
+    const auto& owners = session.piece().owners;
+    const Rank own = session.piece().rank;
+    const auto first_of = [&](bool mine) {
+      return std::ranges::find_if(owners, [&](Rank owner) { return (owner == own) == mine; }) - owners.begin();
+    };
+    std::vector<double> values(points, 1);
+    if (odd) values[static_cast<std::size_t>(first_of(true))] = std::nan("");
+    session.attach("w", values, FieldPlace::kPoints, Transfer::kConserve, means);
+    const std::string refused = error_text([&] { session.adapt(std::vector<double>(points, 0.1), means, {}); });
+    CHECK(mentions(refused, "rank 1: field 'w' is nan at point "));
+    CHECK((!odd || mentions(refused, " at point " + std::to_string(first_of(true)) + " (")));
+    session.detach("w", means);
     CHECK(mentions(attached(odd ? "v" : "u", points), {"the same call", "'u'", "'v'"}));
     CHECK(mentions(attached("u", points, odd ? Transfer::kConserve : Transfer::kInterpolate), "conserving"));
     CHECK(mentions(error_text([&] { (void)session.field("u"); }), "no field 'u'"));
@@ -506,7 +519,11 @@ TEST_CASE("wrong use on one rank is one clear error on all, and changes nothing"
     CHECK(mentions(error_text([&] { session.adapt(std::vector<double>(points, 0.02), means, hooks); }), "enough"));
     CHECK(session.report().generation == 0);
     CHECK(session.piece().mesh.points.size() == points);
+    values.assign(points, 1);
+    if (odd) values[static_cast<std::size_t>(first_of(false))] = std::nan("");  // that of the owner counts
+    session.attach("w", values, FieldPlace::kPoints, Transfer::kConserve, means);
     session.adapt(std::vector<double>(points, 0.1), means, {});
     CHECK(session.report().generation == 1);
+    CHECK(std::ranges::none_of(session.field("w"), [](double value) { return std::isnan(value); }));
   });
 }
