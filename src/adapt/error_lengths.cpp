@@ -8,6 +8,7 @@
 
 #include "adapt/of_all_parts.hpp"
 #include "adapt/sums_at_points.hpp"
+#include "base/formatted.hpp"
 #include "driftmesh/error.hpp"
 #include "geometry/triangle_geometry.hpp"
 #include "mesh/bounds.hpp"
@@ -16,17 +17,20 @@ namespace driftmesh::adapt {
 namespace {
 
 void require_sound(const Mesh& mesh, std::span<const double> indicators, double target, double order) {
-  const std::string what = "lengths_from_error: ";
   if (indicators.size() != mesh.triangles.size())
-    throw Error(what + "there are " + std::to_string(indicators.size()) + " indicators for " +
-                std::to_string(mesh.triangles.size()) + " triangles; give one for each triangle of the present mesh");
+    throw Error(
+        formatted("lengths_from_error: there are {} indicators for {} triangles; give one for each triangle of the "
+                  "present mesh",
+                  indicators.size(), mesh.triangles.size()));
   const auto wrong = std::ranges::find_if(indicators, [](double e) { return !(e >= 0 && std::isfinite(e)); });
   if (wrong != indicators.end())
-    throw Error(what + "the indicator of triangle " + std::to_string(wrong - indicators.begin()) +
-                " (counted from 0) is " + std::to_string(*wrong) + "; it must be at least 0, and finite");
+    throw Error(
+        formatted("lengths_from_error: the indicator of triangle {} (counted from 0) is {}; it must be at least 0, and "
+                  "finite",
+                  wrong - indicators.begin(), *wrong));
   for (const auto& [name, value] : {std::pair("target", target), {"order", order}})
     if (!(value > 0 && std::isfinite(value)))
-      throw Error(what + name + " is " + std::to_string(value) + "; it must be positive");
+      throw Error(formatted("lengths_from_error: {} is {}; it must be positive, and finite", name, value));
 }
 
 /// What is known at points and of subdomains, from the errors of their triangles.

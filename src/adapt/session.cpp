@@ -24,12 +24,11 @@ namespace {
 
 void require_sound(const AdaptiveOptions& options) {
   const auto require = [](bool sound, const char* key, double value, const KeyText& rule) {
-    if (!sound)
-      throw Keyed<Error>(KeyText::of("{} is {}; it must be {}", KeyText::key(key), formatted("{}", value), rule));
+    if (!sound) throw Keyed<Error>(KeyText::of("{} is {}; it must be {}", KeyText::key(key), value, rule));
   };
   require(options.shortest >= 0, "adaptive.shortest", options.shortest, "at least 0");
   require(options.longest > 0 && options.longest >= options.shortest, "adaptive.longest", options.longest,
-          KeyText::of("positive, and not below {adaptive.shortest}, which is {}", formatted("{}", options.shortest)));
+          KeyText::of("positive, and not below {adaptive.shortest}, which is {}", options.shortest));
   require(options.gradation >= 0, "adaptive.gradation", options.gradation, "at least 0");
   require(options.coarsening >= 0 && options.coarsening < 1, "adaptive.coarsening", options.coarsening,
           "at least 0, and below 1");

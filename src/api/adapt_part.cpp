@@ -18,13 +18,12 @@ namespace {
 
 void require_in_range(const PartOptions& options) {
   const auto require = [](bool sound, const char* key, double value, const KeyText& rule) {
-    if (!sound)
-      throw Keyed<Error>(KeyText::of("{} is {}; it must be {}", KeyText::key(key), formatted("{}", value), rule));
+    if (!sound) throw Keyed<Error>(KeyText::of("{} is {}; it must be {}", KeyText::key(key), value, rule));
   };
   const AdaptiveOptions& sizes = options.sizes;
   require(sizes.shortest >= 0, "part.sizes.shortest", sizes.shortest, "at least 0");
   require(sizes.longest > 0 && sizes.longest >= sizes.shortest, "part.sizes.longest", sizes.longest,
-          KeyText::of("positive, and not below {part.sizes.shortest}, which is {}", formatted("{}", sizes.shortest)));
+          KeyText::of("positive, and not below {part.sizes.shortest}, which is {}", sizes.shortest));
   require(sizes.gradation >= 0, "part.sizes.gradation", sizes.gradation, "at least 0");
   require(sizes.most_triangles >= 0, "part.sizes.most_triangles", sizes.most_triangles, "at least 0");
   require(options.min_angle >= 0 && options.min_angle <= kMaxAngle, "part.min_angle", options.min_angle,
@@ -33,14 +32,13 @@ void require_in_range(const PartOptions& options) {
   require(options.tolerance >= 0, "part.tolerance", options.tolerance, "at least 0");
 }
 
-std::vector<adapt::Field> fields_of(Mesh& mesh, const std::vector<std::string>& conserve) {
+std::vector<adapt::Field> fields_of(Mesh& mesh, const std::vector<std::string>& conserve, bool in_another_domain) {
   std::vector<patch::NamedField> named = patch::take_point_data(mesh);
   for (const std::string& name : conserve) {
     const auto found = std::ranges::find(named, name, &patch::NamedField::name);
     if (found == named.end())
       throw Keyed<Error>(KeyText::of("the mesh has no point data '{}', which {part.conserve} names", name));
-    found->field.how = Transfer::kConserve;
-    adapt::require_summable(name, found->field);
+    patch::conserve(*found, in_another_domain);
   }
   std::vector<adapt::Field> fields;
   for (patch::NamedField& field : named) fields.push_back(std::move(field.field));
@@ -52,14 +50,8 @@ AdaptedMesh adapted(Mesh mesh, patch::Order order, const PartOptions& options) {
   order.options = options.sizes;
   order.min_angle = options.min_angle;
   order.threads = threads_or_cores(options.threads);
-  std::vector<adapt::Field> fields = in_words_of_library([&] {
-    if (order.domain != nullptr && !options.conserve.empty())
-      throw Keyed<Error>(
-          KeyText::of("the integral of '{}', which {part.conserve} names, cannot stay where the domain becomes another "
-                      "one; interpolate it",
-                      options.conserve.front()));
-    return fields_of(mesh, options.conserve);
-  });
+  std::vector<adapt::Field> fields =
+      in_words_of_library([&] { return fields_of(mesh, options.conserve, order.domain != nullptr); });
   patch::Remade remade = patch::remake(std::move(mesh), std::move(fields), std::move(order));
   patch::give_point_data(remade.mesh, remade.fields);
   return {.mesh = std::move(remade.mesh),

@@ -92,18 +92,13 @@ void apply_transfers(NamedFields& fields, const AdaptCommand& command) {
       throw cli::UsageError("--transfer is '" + transfer + "'; it is NAME, NAME=interpolate or NAME=conserve");
     const std::string name = transfer.substr(0, equals);
     if (!names.insert(name).second) throw cli::UsageError("--transfer names '" + name + "' twice; give it once");
-    if (how == "conserve" && !command.outline.empty())
-      throw InputError({command.mesh},
-                       "the integral of '" + name + "' cannot stay where the domain becomes another one by --outline",
-                       "interpolate it");
     bool any = false;
     for (patch::NamedField& named : fields) {
       if (named.name != name) continue;
       any = true;
       if (how != "conserve") continue;
-      named.field.how = Transfer::kConserve;
       try {
-        adapt::require_summable(name, named.field);
+        patch::conserve(named, !command.outline.empty());
       } catch (const Error& error) {
         throw InputError(command.mesh + ": " + error.what());
       }

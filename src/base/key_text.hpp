@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/bytes.hpp"
+#include "base/formatted.hpp"
 
 namespace driftmesh {
 
@@ -64,7 +65,7 @@ class KeyText {
   template <class Value>
   static KeyText value(const Value& value) {
     if constexpr (std::is_arithmetic_v<Value>)
-      return KeyText(std::to_string(value));
+      return KeyText(formatted("{}", value));
     else if constexpr (std::is_same_v<Value, KeyText>)
       return value;
     else

@@ -28,6 +28,14 @@ std::vector<NamedField> take_point_data(Mesh& mesh) {
   return fields;
 }
 
+void conserve(NamedField& named, bool in_another_domain) {
+  if (in_another_domain)
+    throw Error(
+        formatted("the integral of '{}' cannot stay where the domain becomes another one; interpolate it", named.name));
+  named.field.how = Transfer::kConserve;
+  adapt::require_summable(named.name, named.field);
+}
+
 void give_point_data(Mesh& mesh, const std::vector<adapt::Field>& fields) {
   mesh.attributes.resize(mesh.points.size() * fields.size());
   for (std::size_t k = 0; k < fields.size(); ++k)

@@ -18,6 +18,10 @@ struct NamedField {
 /// Error if values or names are too many or too few.
 [[nodiscard]] std::vector<NamedField> take_point_data(Mesh& mesh);
 
+/// From now on the integral of the field stays. Throws Error, with its name, if it cannot: in another domain, or where
+/// values cannot be summed up.
+void conserve(NamedField& named, bool in_another_domain);
+
 /// Puts as many fields back, in their order.
 void give_point_data(Mesh& mesh, const std::vector<adapt::Field>& fields);
 

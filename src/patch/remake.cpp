@@ -11,6 +11,7 @@
 
 #include "adapt/linear_lengths.hpp"
 #include "adapt/locator.hpp"
+#include "base/formatted.hpp"
 #include "driftmesh/error.hpp"
 #include "geometry/predicates.hpp"
 #include "geometry/triangle_geometry.hpp"
@@ -36,12 +37,11 @@ constexpr int kMostRounds = 12;
 void require_lengths(const Mesh& mesh, const std::vector<double>& lengths) {
   if (lengths.empty()) return;
   if (lengths.size() != mesh.points.size())
-    throw Error("there are " + std::to_string(lengths.size()) + " lengths for " + std::to_string(mesh.points.size()) +
-                " points; give one for each");
+    throw Error(formatted("there are {} lengths for {} points; give one for each", lengths.size(), mesh.points.size()));
   for (std::size_t v = 0; v < lengths.size(); ++v)
     if (!(lengths[v] > 0))
-      throw Error("the length at point " + std::to_string(v) + " (counted from 0) is " + std::to_string(lengths[v]) +
-                  "; lengths must be greater than 0");
+      throw Error(
+          formatted("the length at point {} (counted from 0) is {}; lengths must be greater than 0", v, lengths[v]));
 }
 
 void require_counterclockwise(const Part& part) {
@@ -174,12 +174,8 @@ std::vector<std::int32_t> numbers_in_whole(const Part& part, std::vector<std::in
 }
 
 /// The change of the outline, if there is one, and its triangles among those to be made anew.
-OutlineChange change_of(Mesh& mesh, const std::vector<adapt::Field>& fields, const Order& order,
-                        std::vector<bool>& inside) {
+OutlineChange change_of(Mesh& mesh, const Order& order, std::vector<bool>& inside) {
   if (order.domain == nullptr) return {};
-  for (const adapt::Field& field : fields)
-    if (field.how == Transfer::kConserve)
-      throw Error("the integral of a field cannot stay where the domain becomes another one; interpolate the field");
   const std::size_t listed = mesh.edges.size();
   OutlineChange change = compare_outlines(mesh, *order.domain);
   for (std::size_t t = 0; t < inside.size(); ++t) change.inside[t] = change.inside[t] || inside[t];
@@ -219,7 +215,7 @@ Remade remake(Mesh mesh, std::vector<adapt::Field> fields, Order order) {
   require_sound(mesh);
   require_lengths(mesh, order.lengths);
   std::vector<bool> inside = std::move(order.inside);
-  const OutlineChange change = with_flaw_of(mesh, [&] { return change_of(mesh, fields, order, inside); });
+  const OutlineChange change = with_flaw_of(mesh, [&] { return change_of(mesh, order, inside); });
   if (std::ranges::find(inside, true) == inside.end()) {
     Remade same = unchanged(std::move(mesh), std::move(fields));
     same.report.other_markers = change.other_markers;

@@ -54,10 +54,11 @@ struct Remade {
 /// beyond stays bit for bit: points, triangles with their corners in order, edges, markers, and numbers (see splice).
 /// The new triangles are Delaunay, also together with what stays. Fields are carried over; the mesh has no attributes
 /// of its own. Throws Error for a mesh that is not sound, for triangles that are clockwise or do not fit together, for
-/// lengths that are not positive, for fields to be conserved in another domain, and LimitError.
+/// lengths that are not positive, and LimitError.
 ///
 /// With a new domain, what is to be made anew is all that compare_outlines finds. Where the new domain is beyond the
-/// old mesh, lengths and fields are those at the nearest place of it that is taken. Edges that stay keep their markers.
+/// old mesh, lengths and fields are those at the nearest place of it that is taken; conserve() refuses fields there.
+/// Edges that stay keep their markers.
 [[nodiscard]] Remade remake(Mesh mesh, std::vector<adapt::Field> fields, Order order);
 
 }  // namespace driftmesh::patch

@@ -513,7 +513,7 @@ class Errors(Adapt):
             self.refuse("adapt", "old.vtu", "--lengths", "h", option, value, "--threshold", 1.2, "-o", "new.vtu", code=2,
                         says=["--threshold", option])
         self.refuse("adapt", "old.vtu", "--outline", "domain.poly", "--transfer", "h=conserve", "-o", "new.vtu",
-                    says=["old.vtu", "integral of 'h'", "--outline", "interpolate"])
+                    says=["old.vtu: the integral of 'h' cannot stay", "interpolate"])
         self.refuse("adapt", "domain.poly", "--max-length", 1, "-o", "new.vtu",
                     says=["domain.poly: is a domain and no mesh", "no domain.ele", "driftmesh mesh"])
         self.refuse("adapt", "old.vtu", "--max-length", 0.01, "--max-triangles", 1000, "-o", "new.vtu", code=3,

@@ -445,6 +445,8 @@ TEST_CASE("wrong use is one clear error, and changes nothing") {
     CHECK(mentions(from_error(1, wrong, 2), "target"));
     CHECK(mentions(from_error(1, 1, wrong), "order"));
   }
+  CHECK(mentions(from_error(-1e-9, 1, 2), " is -1e-09; it must be at least 0"));
+  CHECK(mentions(from_error(1, -1e-9, 2), "target is -1e-09; it must be positive"));
   CHECK(mentions(from_error(1, 0, 2), "target"));
   CHECK(mentions(from_error(1, 1, 0), "order"));
 

@@ -109,10 +109,14 @@ TEST_CASE("a part, with lengths and point data") {
     CHECK(mentions(error_text([&] { (void)adapt_part(damaged, part, options); }), {"'depth' is", "at point 7"}));
   }
   const std::string refused = error_text([&] { (void)adapt_outline(before, port(3.5), options); });
-  CHECK(mentions(refused, {"'depth'", "PartOptions::conserve", "interpolate"}));
+  CHECK(mentions(refused, {"the integral of 'depth' cannot stay", "interpolate"}));
   options.conserve = {"heat"};
   CHECK(error_text([&] { (void)adapt_part(before, part, options); }).find("'heat'") != std::string::npos);
   CHECK(error_text([&] { (void)adapt_part(before, std::vector{-1}); }).find("no triangle -1") != std::string::npos);
+  std::vector<double> lengths(before.points.size(), 1);
+  lengths[3] = -1e-9;
+  CHECK(mentions(error_text([&] { (void)adapt_part(before, part, {.lengths = lengths}); }),
+                 "the length at point 3 (counted from 0) is -1e-09;"));
   CHECK(mentions(error_text([&] { (void)adapt_part(before, part, {.tolerance = -1e-9}); }),
                  "PartOptions::tolerance is -1e-09; it must be at least 0"));
   CHECK(mentions(error_text([&] { (void)adapt_part(before, part, {.sizes = {.shortest = 2, .longest = 1}}); }),

@@ -293,6 +293,11 @@ TEST_CASE("no door changes what users wrote") {
   }
 }
 
+TEST_CASE("numbers in texts have the digits that they need") {
+  CHECK(KeyText::of("{bounds.area} is {} of {}, not {}", 1e-9, 3, 0.1).in(full_name) ==
+        "bounds.area is 1e-09 of 3, not 0.1");
+}
+
 TEST_CASE("an error keeps its kind, its place and its parts behind a door, and on its way to other ranks") {
   const KeyText text = KeyText::of("{} {bounds.area} {}", "--area {bounds.area}", 5);
   const auto sent = [](const std::exception_ptr& error) {
