@@ -51,7 +51,9 @@ std::string adapt_summary(const patch::Remade& remade, const patch::Unmet& unmet
 }
 
 std::string warning_if_nothing_stays(const patch::Remade& remade, const Box& before, const AdaptCommand& command) {
-  if (std::ranges::any_of(remade.old_triangles, [](std::int32_t old) { return old >= 0; })) return {};
+  const auto stays = [&](std::int32_t v) { return remade.old_points[to_index(v)] >= 0; };
+  if (std::ranges::any_of(remade.mesh.triangles, [&](const auto& t) { return std::ranges::count_if(t, stays) > 1; }))
+    return {};
   const Box now = Box::of(remade.mesh.points);
   return fmt::format(
       "nothing of the mesh stays in the domain of {}: the mesh was from {:.10g},{:.10g} to {:.10g},{:.10g}, "

@@ -17,7 +17,8 @@ namespace driftmesh::app {
 [[nodiscard]] std::string adapt_summary(const patch::Remade& remade, const patch::Unmet& unmet, std::size_t before,
                                         const AdaptCommand& command, const std::vector<job::StageTime>& stages);
 
-/// Where both domains are, as a warning, if no triangle stays; otherwise empty. `before`: around the old mesh.
+/// Where both domains are, as a warning, if no two neighboring points stay (one may be in both by chance); otherwise
+/// empty. `before`: around the old mesh.
 [[nodiscard]] std::string warning_if_nothing_stays(const patch::Remade& remade, const Box& before,
                                                    const AdaptCommand& command);
 

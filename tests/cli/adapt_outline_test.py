@@ -145,12 +145,29 @@ class Changes(Outline):
         self.assertLess(largest, 0.03)
 
     def test_regions_and_markers(self):
-        self.write("old.poly", REGIONS)
-        self.write("new.poly", REGIONS.replace("2 2 0 0", "2 2.4 0 0"))  # the border between both regions turns
+        old = REGIONS.replace("2 2 3 2", "2 2 3 1")  # one marker on both sides of the border's end
+        turned = old.replace("\n2 2 0\n", "\n2 2.4 0\n")
+        self.assertNotIn(turned, (old, REGIONS))
+        self.write("old.poly", old)
+        self.write("new.poly", turned)
         self.succeed("mesh", "old.poly", "--area", 0.01, "-o", "first.vtu")
         self.adapt("first.vtu", "new.poly")
         self.write("none.poly", SQUARE)
         self.refuse("adapt", "first.vtu", "--outline", "none.poly", "-o", "no.vtu", says=["none.poly", "no regions"])
+
+    def test_a_mesh_whose_regions_are_swapped_is_where_it_was(self):
+        def messages(outline):
+            result = self.run_program("adapt", "first.vtu", "--outline", outline, "-o", "new.vtu", "--map", "map.csv")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.succeed("check", "new.vtu", outline, "--angle", 20, "--against", "first.vtu", "--map", "map.csv")
+            return result.stderr
+
+        self.write("old.poly", REGIONS)
+        self.write("swapped.poly", REGIONS.replace("1 1 1 10", "1 1 1 20").replace("2 3 1 20", "2 3 1 10"))
+        self.write("tiny.poly", poly([[(x / 1000, y / 1000) for x, y in RING]]) + "1\n1 0.001 0.001 10\n")
+        self.succeed("mesh", "old.poly", "--area", 0.05, "-o", "first.vtu")
+        self.assertNotIn("warning", messages("swapped.poly"))
+        self.assertIn("nothing of the mesh stays", messages("tiny.poly"))  # but for one corner
 
     def test_markers_that_stay_are_the_old_ones_and_new_lines_have_the_new(self):
         old = self.mesh("foreign.vtu", poly([RING]), 0.3)
