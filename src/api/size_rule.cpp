@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/formatted.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/size_on_mesh.hpp"
 #include "job/value.hpp"
@@ -118,8 +119,7 @@ std::shared_ptr<const BackgroundFunction> lengths_on(const Mesh& mesh, std::vect
   if (lengths.size() != mesh.points.size())
     throw Error("size_on_mesh: there are " + std::to_string(lengths.size()) + " lengths for " +
                 std::to_string(mesh.points.size()) + " points; give one for each");
-  if (!(gradation >= 0))
-    throw Error("size_on_mesh: gradation is " + std::to_string(gradation) + "; it must be at least 0");
+  if (!(gradation >= 0)) throw Error(formatted("size_on_mesh: gradation is {}; it must be at least 0", gradation));
   auto background = std::make_shared<const BackgroundMesh>(mesh.points, mesh.triangles);
   if (gradation > 0) limit_gradation(mesh.points, mesh.triangles, gradation, lengths);
   return BackgroundFunction::of_points(std::move(background), std::move(lengths));

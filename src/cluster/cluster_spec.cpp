@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/formatted.hpp"
 #include "driftmesh/error.hpp"
 
 namespace driftmesh {
@@ -38,8 +39,10 @@ IdVector<Rank, double> speeds_of(const ClusterSpec& cluster, const CostModel& co
       throw Error("group '" + group.name + "' of the cluster has " + std::to_string(group.ranks) +
                   " ranks; give it at least one");
     if (!(group.speed >= 0 && std::isfinite(group.speed)))
-      throw Error("group '" + group.name + "' of the cluster has a speed of " + std::to_string(group.speed) +
-                  " triangles per second; it must be above 0, or 0 for the speed of the machine in docs/benchmarks.md");
+      throw Error(
+          formatted("group '{}' of the cluster has a speed of {} triangles per second; it must be above 0, or 0 for "
+                    "the speed of the machine in docs/benchmarks.md",
+                    group.name, group.speed));
     speeds.insert(speeds.end(), to_index(group.ranks), group.speed > 0 ? group.speed : reference);
   }
   if (speeds.empty()) throw Error("a cluster needs at least one rank");

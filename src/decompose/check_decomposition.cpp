@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/disjoint_sets.hpp"
+#include "base/formatted.hpp"
 #include "geometry/box_tree.hpp"
 #include "geometry/predicates.hpp"
 #include "geometry/triangle_geometry.hpp"
@@ -52,7 +53,7 @@ class Checker {
   }
   [[nodiscard]] const Point& point(GlobalPointId v) const { return d_.points[v]; }
   [[nodiscard]] std::string place(GlobalPointId v) const {
-    return "point " + to_string(v) + " (" + std::to_string(point(v).x) + ", " + std::to_string(point(v).y) + ")";
+    return formatted("point {} ({}, {})", to_string(v), point(v).x, point(v).y);
   }
 
   bool check_ranges() {
@@ -173,8 +174,8 @@ class Checker {
         problem("subdomain " + to_string(i) + " has " + std::to_string(outer[i]) +
                 " outer borders: it is not connected");
       if (!(std::fabs(area[i] - d_.subdomains[i].area) <= 1e-9 * report_.area))
-        problem("subdomain " + to_string(i) + " claims area " + std::to_string(d_.subdomains[i].area) +
-                ", its border encloses " + std::to_string(area[i]));
+        problem(formatted("subdomain {} claims area {}, its border encloses {}", to_string(i), d_.subdomains[i].area,
+                          area[i]));
     }
   }
 

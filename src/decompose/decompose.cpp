@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/formatted.hpp"
 #include "decompose/bridges.hpp"
 #include "decompose/cutter.hpp"
 #include "decompose/pieces.hpp"
@@ -55,8 +56,7 @@ IdVector<PieceId, WorkSamples> share_out(WorkSamples all, const PlanarMap& map, 
 template <class Number>
 void check_range(const std::string& what, Number value, std::int32_t least, std::int32_t most) {
   if (!(value >= least && value <= most))
-    throw Error(what + " must be from " + std::to_string(least) + " to " + std::to_string(most) + ", not " +
-                std::to_string(value));
+    throw Error(formatted("{} must be from {} to {}, not {}", what, least, most, value));
 }
 
 void check_options(const DecomposeOptions& o) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/formatted.hpp"
 #include "decompose/same_input.hpp"
 #include "geometry/midpoint.hpp"
 #include "geometry/predicates.hpp"
@@ -84,7 +85,7 @@ class SegmentCheck {
   [[noreturn]] void refuse_root(GlobalRootId r, const std::string& what) const {
     refuse(": its root " + to_string(r) + " " + what);
   }
-  static std::string place(const Point& p) { return " (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")"; }
+  static std::string place(const Point& p) { return formatted(" ({}, {})", p.x, p.y); }
   [[nodiscard]] std::string words(RootId root) const {
     const auto& [a, b] = domain_.roots[root].vertex;
     return " from" + place(domain_.points[a]) + " to" + place(domain_.points[b]);

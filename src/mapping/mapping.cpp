@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/formatted.hpp"
 #include "decompose/graph_partition.hpp"
 #include "driftmesh/error.hpp"
 
@@ -21,7 +22,7 @@ IdVector<Rank, double> speeds_of(const MappingOptions& options) {
     throw Error(std::to_string(options.speeds.size()) + " speeds given for " + std::to_string(options.ranks) +
                 " ranks; give one for each");
   for (const double s : options.speeds)
-    if (!(s > 0 && std::isfinite(s))) throw Error("the speed of a rank must be above 0, not " + std::to_string(s));
+    if (!(s > 0 && std::isfinite(s))) throw Error(formatted("the speed of a rank must be above 0, not {}", s));
   return options.speeds;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/assert.hpp"
+#include "base/formatted.hpp"
 #include "base/narrow.hpp"
 #include "driftmesh/error.hpp"
 #include "geometry/box.hpp"
@@ -49,7 +50,7 @@ void add_box(Triangulation& mesh, const Pslg& pslg) {
 
 std::string describe(const Triangulation& mesh, VertexId v) {
   const Point& p = mesh.points[v];
-  return "point " + std::to_string(mesh.origin[v]) + " (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
+  return formatted("point {} ({}, {})", mesh.origin[v], p.x, p.y);
 }
 
 /// Adds the points in the order in which they are to be inserted, so that neighbors in the plane are neighbors in

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/disjoint_sets.hpp"
+#include "base/formatted.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/repair.hpp"
 #include "geometry/box_tree.hpp"
@@ -505,7 +506,7 @@ Pslg filled_once(const Pslg& before, const Triangulation& domain, const OutlineS
 
 ClosedChannels close_channels(Pslg& pslg, double width, const std::string& file) {
   if (!(width > 0) || !std::isfinite(width))
-    throw Error("the width of channels to close must be a positive length, but is " + std::to_string(width));
+    throw Error(formatted("the width of channels to close must be a positive length, but is {}", width));
   constexpr int kMostPasses = 100;  // two or three are common
   ClosedChannels closed;
   closed.original_point.resize(pslg.points.size());

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/formatted.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/id_vector.hpp"
 #include "driftmesh/repair.hpp"
@@ -183,8 +184,7 @@ Pslg outline(const Mesh& mesh, const std::string& file) {
   const double area = area_of(mesh);
   if (!(std::fabs(enclosed.area - area) <= 1e-6 * area))
     throw InputError({file, 0},
-                     "has triangles with an area of " + std::to_string(area) + ", but its boundary encloses " +
-                         std::to_string(enclosed.area),
+                     formatted("has triangles with an area of {}, but its boundary encloses {}", area, enclosed.area),
                      "look for triangles that overlap with driftmesh check");
   Pslg pslg = with_points_of(mesh, segments_of(mesh, borders, true));
   pslg.holes = enclosed.holes;

@@ -8,6 +8,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/formatted.hpp"
 #include "driftmesh/error.hpp"
 #include "geometry/box_tree.hpp"
 #include "geometry/polygon.hpp"
@@ -352,7 +353,7 @@ std::vector<std::int32_t> keep(Pslg& pslg, const Obstacles& obstacles,
 
 SimplifyReport simplify(Pslg& pslg, double tolerance, const std::string& file) {
   if (!(tolerance >= 0) || !std::isfinite(tolerance))
-    throw Error("the tolerance of simplification must be a length, but is " + std::to_string(tolerance));
+    throw Error(formatted("the tolerance of simplification must be a length, but is {}", tolerance));
   SimplifyReport report;
   const std::vector<Polyline> lines = polylines_of(pslg);
   Obstacles obstacles(pslg);

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "base/formatted.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/id_vector.hpp"
 #include "geometry/predicates.hpp"
@@ -159,8 +160,8 @@ std::shared_ptr<const BackgroundFunction> BackgroundFunction::of_points(std::sha
   require_count(lengths.size(), "points", mesh->points().size());
   for (std::size_t i = 0; i < lengths.size(); ++i)
     if (!(lengths[i] > 0))
-      throw Error("background mesh: the edge length at point " + std::to_string(i) + " (counted from 0) is " +
-                  std::to_string(lengths[i]) + ", not positive");
+      throw Error(formatted("background mesh: the edge length at point {} (counted from 0) is {}, not positive", i,
+                            lengths[i]));
   const auto [least, most] = std::minmax_element(lengths.begin(), lengths.end());
   return std::shared_ptr<const BackgroundFunction>(new BackgroundFunction(
       std::make_shared<const All>(All{std::move(mesh), std::move(lengths), false, *least, *most}),

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/formatted.hpp"
 #include "base/standard_streams.hpp"
 #include "driftmesh/error.hpp"
 #include "pslg/triangle_files.hpp"
@@ -54,8 +55,7 @@ std::vector<double> lengths_at_points(const NodeTable& nodes, const std::string&
     lengths[i] = nodes.attributes[i * stride];
     if (!(lengths[i] > 0))
       throw InputError({file},
-                       "the target edge length at point " + std::to_string(i + nodes.first_number) + " is " +
-                           std::to_string(lengths[i]),
+                       formatted("the target edge length at point {} is {}", i + nodes.first_number, lengths[i]),
                        "make the first attribute of every point a positive length");
   }
   return lengths;
@@ -95,9 +95,9 @@ std::shared_ptr<const PlaneFunction> grown(std::shared_ptr<const ExpressionField
 
 void require_sound(const SizingOptions& options) {
   if (!(options.longest > 0))
-    throw InputError({"longest edge length"}, std::to_string(options.longest), "it must be positive");
+    throw InputError({"longest edge length"}, formatted("{}", options.longest), "it must be positive");
   if (!(options.shortest >= 0) || options.shortest > options.longest)
-    throw InputError({"shortest edge length"}, std::to_string(options.shortest),
+    throw InputError({"shortest edge length"}, formatted("{}", options.shortest),
                      "it must lie between 0 and the longest edge length");
 }
 
@@ -105,7 +105,7 @@ void require_sound(const SizingOptions& options) {
 
 Background read_background(const std::string& path, std::optional<double> gradation) {
   if (gradation && !(*gradation > 0 && std::isfinite(*gradation)))
-    throw InputError({"gradation"}, std::to_string(*gradation), "it must be positive; 0.2 to 0.3 grade well");
+    throw InputError({"gradation"}, formatted("{}", *gradation), "it must be positive; 0.2 to 0.3 grade well");
   if (is_standard_stream(path))
     throw InputError({path}, "a background mesh consists of two or three files, but standard input is only one",
                      "name its .node");

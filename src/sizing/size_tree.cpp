@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/formatted.hpp"
 #include "driftmesh/error.hpp"
 
 namespace driftmesh {
@@ -38,8 +39,8 @@ double power_of_two(int exponent) {
 }
 
 [[noreturn]] void throw_outside(const Point& p) {
-  throw Error("compiled sizes are asked for near (" + std::to_string(p.x) + ", " + std::to_string(p.y) +
-              "), outside of the domain that they were compiled for");
+  throw Error(formatted("compiled sizes are asked for near ({}, {}), outside of the domain that they were compiled for",
+                        p.x, p.y));
 }
 
 /// The least power of two above a length.
@@ -264,7 +265,7 @@ void SizeTree::compile_in(const CornerPoints& triangle, Node& node, const Place&
   if (Node::is_leaf(state)) {
     if (Node::kind(state) != kUnknown) return;
     const Point p = box.center();
-    throw Error("sizes near (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ") are known at points alone");
+    throw Error(formatted("sizes near ({}, {}) are known at points alone", p.x, p.y));
   }
   Quarters& quarters = *Node::quarters(state);
   for (std::uint64_t k = 0; k < 4; ++k)

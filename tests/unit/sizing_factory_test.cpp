@@ -100,6 +100,7 @@ TEST_CASE("errors in sizing options are named") {
   write_square(folder, "4 2 1 0", {"1", "1", "0", "1"});
   CHECK(mentions(message_of({.background = folder.path("square")}), "point 3 is 0"));
   CHECK(mentions(message_of({.background = folder.path("square"), .gradation = 0.0}), "gradation"));
+  CHECK(mentions(message_of({.background = folder.path("square"), .gradation = -1e-9}), "gradation: -1e-09;"));
   CHECK(mentions(message_of({.background = folder.path("square"), .gradation = std::nan("")}), "gradation"));
   folder.write("square.ele", "1 3 0\n1 1 2 2\n");
   CHECK(mentions(message_of({.background = folder.path("square")}), "square.ele"));
