@@ -96,7 +96,8 @@ class Channels {
         if (across(u, v) != kNone) continue;
         const auto e = static_cast<std::int32_t>(edges_.size());
         edges_.push_back({u, v, t});
-        if (behind_[u] != kNone || before_[v] != kNone) tangled_[u] = tangled_[v] = 1;
+        if (behind_[u] != kNone) tangled_[u] = 1;
+        if (before_[v] != kNone) tangled_[v] = 1;
         behind_[u] = before_[v] = e;
       }
   }

@@ -98,6 +98,22 @@ TEST_CASE("nothing is asked of corners and wide places") {
   CHECK(counted(mesh, {3, 0}, findings).fewest >= 2);
 }
 
+TEST_CASE("sides that meet in a point where the outline touches itself are no channel") {
+  Pslg corner;  // a triangle, to which another one is added in a point
+  corner.points = {{5, 0}, {0, 4}, {0, 0}};
+  corner.segments = {{0, 1, 1}, {1, 2, 1}, {2, 0, 1}};
+  Pslg touching = corner;
+  touching.points.insert(touching.points.end(), {{10, 3}, {10, 1}});
+  touching.segments.insert(touching.segments.end(), {{0, 3, 1}, {3, 4, 1}, {4, 0, 1}});
+  for (const Pslg& pslg : {corner, touching}) {
+    job::Request request = bounded(20, 0, 300'000);
+    request.sizing.across = 2;
+    Findings findings;
+    counted(made(pslg, request).mesh, {2, 0}, findings);
+    CHECK(findings.empty());
+  }
+}
+
 TEST_CASE("channels have the layers that are asked for") {
   Random random = seeded_generator("layers across channels");
   std::int64_t crossings = 0, meshes = 0;
