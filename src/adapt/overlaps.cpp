@@ -48,10 +48,8 @@ OverlapSearch::OverlapSearch(const Triangulation& old_mesh, const Triangulation&
     : old_mesh_(old_mesh), new_mesh_(new_mesh), locator_(new_mesh), seen_(new_mesh.triangles.size(), 0) {}
 
 void OverlapSearch::find(TriangleId old_triangle, Overlaps& found) {
-  found = {.old_triangle = old_triangle,
-           .correction = 1,
-           .list = std::exchange(found.list, {}),
-           .corners = std::exchange(found.corners, {})};
+  found.old_triangle = old_triangle;
+  found.correction = 1;
   found.list.clear();
   found.corners.clear();
   const CornerPoints triangle{old_mesh_.corner(old_triangle, 0), old_mesh_.corner(old_triangle, 1),
