@@ -68,7 +68,7 @@ std::size_t CheckedMesh::pieces_at_once() const {
 }
 
 void CheckedMesh::settle(Mesh& mesh) const {
-  if (!mesh.coordinates.empty()) settle_points(mesh.points, places_, kRounded);
+  if (!mesh.coordinates.empty()) settle_points(mesh.points, places_, kRoundedPlaces);
 }
 
 }  // namespace driftmesh::app

@@ -18,10 +18,6 @@ namespace driftmesh::app {
 /// The mesh to check, in one piece or in several that are read one by one. Errors: as read_mesh.
 class CheckedMesh {
  public:
-  /// Meters, of a mesh that may have been in longitudes and latitudes meanwhile: three units of the last place at 180
-  /// degrees.
-  static constexpr double kRounded = 1e-8;
-
   CheckedMesh(const std::string& path, const ReadOptions& reading);
 
   /// What a saved adaptive mesh has besides; null: it is none.
@@ -32,7 +28,7 @@ class CheckedMesh {
   /// What the coordinates of its points are; empty: not known.
   [[nodiscard]] std::string projection() const;
 
-  /// Points of a mesh that knows where it is on the globe, within what rounding moves longitudes and latitudes, become
+  /// Points of a mesh that knows where it is on the globe, within kRoundedPlaces, become
   /// these, which are those of the input.
   void settle_on(std::vector<Point> places);
 

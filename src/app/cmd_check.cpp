@@ -25,6 +25,7 @@
 #include "driftmesh/error.hpp"
 #include "driftmesh/files.hpp"
 #include "driftmesh/repair.hpp"
+#include "gis/coordinates.hpp"
 #include "job/check.hpp"
 #include "job/contour.hpp"
 #include "job/domain.hpp"
@@ -42,8 +43,8 @@ namespace {
 constexpr int kRejected = 1;
 constexpr int kUnreadable = 2;
 
-// Of a mesh that may have been in longitudes and latitudes meanwhile: what that may do to circumcircles of triangles.
-constexpr double kSlack = 100 * CheckedMesh::kRounded;
+// Of a mesh that may have been in other coordinates meanwhile: what that may do to circumcircles of triangles.
+constexpr double kSlack = 100 * kRoundedPlaces;
 
 struct CheckOptions {
   std::string mesh;

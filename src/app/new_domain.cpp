@@ -10,7 +10,6 @@
 namespace driftmesh::app {
 
 patch::NewDomain read_new_domain(const std::string& file, double tolerance, Mesh& mesh, job::Watch& watch) {
-  constexpr double kRounding = 1e-8;  // meters, of a mesh that may have been in longitudes and latitudes meanwhile
   job::Request request;
   request.input.file = file;
   if (const auto own = coordinates_from(mesh.coordinates); own && !own->projection.empty())
@@ -18,7 +17,7 @@ patch::NewDomain read_new_domain(const std::string& file, double tolerance, Mesh
   patch::NewDomain domain{std::move(job::read_domain(request, {}, watch).pslg), tolerance, file};
   if (tolerance == 0) {
     domain.tolerance = patch::rounding_of_midpoints(mesh.points);
-    if (!mesh.coordinates.empty()) domain.tolerance = std::max(domain.tolerance, kRounding);
+    if (!mesh.coordinates.empty()) domain.tolerance = std::max(domain.tolerance, kRoundedPlaces);
   }
   patch::adopt_names(domain.pslg, mesh);
   return domain;

@@ -12,6 +12,10 @@ namespace driftmesh {
 /// Longitudes and latitudes on WGS 84, in Coordinates::in.
 inline constexpr const char* kLonLat = "lonlat";
 
+/// Meters by which points of a plane may be beside their places after they were in other coordinates. Longitudes up to
+/// 180 degrees are rounded to 1.6e-9 m; the way through another system has some more such roundings.
+inline constexpr double kRoundedPlaces = 3e-8;
+
 /// What Mesh::coordinates says.
 struct Coordinates {
   std::string projection;    ///< the plane in which the mesh was made
