@@ -29,7 +29,8 @@ namespace driftmesh {
   USE(CPLHTTPPopFetchCallback) USE(CPLHTTPPushFetchCallback) USE(CPLPopErrorHandler) USE(CPLPushErrorHandler)       \
   USE(CPLQuietErrorHandler) USE(CPLSetThreadLocalConfigOption) USE(GDALAllRegister) USE(GDALClose)                  \
   USE(GDALDatasetGetLayer) USE(GDALDatasetGetLayerByName) USE(GDALDatasetGetLayerCount) USE(GDALFlushCache)         \
-  USE(GDALGetGeoTransform) USE(GDALGetRasterBand) USE(GDALGetRasterCount) USE(GDALGetRasterNoDataValue)             \
+  USE(GDALGetGeoTransform) USE(GDALGetMaskBand) USE(GDALGetMaskFlags) USE(GDALGetRasterBand) USE(GDALGetRasterColorInterpretation)                 \
+  USE(GDALGetRasterCount) USE(GDALGetRasterNoDataValue)             \
   USE(GDALGetRasterOffset) USE(GDALGetRasterScale) USE(GDALGetRasterXSize) USE(GDALGetRasterYSize)                  \
   USE(GDALGetSpatialRef) USE(GDALOpenEx) USE(GDALRasterIO) USE(OCTDestroyCoordinateTransformation)                  \
   USE(OCTNewCoordinateTransformation) USE(OCTTransform) USE(OGR_F_Destroy) USE(OGR_F_GetFieldAsDouble)              \

@@ -31,11 +31,11 @@ class MosaicCheck {
 
   /// An element, and all that is in it.
   void check(const CPLXMLNode& element) const {
-    static constexpr std::array<std::string_view, 22> kKnown{
-        "VRTDataset",       "SRS",          "GeoTransform",    "Metadata",   "MDI",     "VRTRasterBand",
-        "Description",      "NoDataValue",  "HideNoDataValue", "UnitType",   "Offset",  "Scale",
-        "ColorInterp",      "SimpleSource", "ComplexSource",   "SourceBand", "SrcRect", "DstRect",
-        "SourceProperties", "NODATA",       "ScaleOffset",     "ScaleRatio"};
+    static constexpr std::array<std::string_view, 24> kKnown{
+        "VRTDataset",       "SRS",          "GeoTransform",    "Metadata",   "MDI",      "VRTRasterBand",
+        "Description",      "NoDataValue",  "HideNoDataValue", "UnitType",   "Offset",   "Scale",
+        "ColorInterp",      "SimpleSource", "ComplexSource",   "SourceBand", "SrcRect",  "DstRect",
+        "SourceProperties", "NODATA",       "ScaleOffset",     "ScaleRatio", "MaskBand", "UseMaskBand"};
     const std::string_view name = element.pszValue;
     if (name == "SourceFilename") return check_source(element);
     if (std::ranges::find(kKnown, name) == kKnown.end()) fail("has an element " + std::string(name));

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <type_traits>
@@ -80,11 +81,20 @@ class GdalRaster final : public RasterRows {
     row_.resize(values.size());
     const auto top = static_cast<int>(upside_down_ ? j : frame_.rows - 1 - j);
     const int count = static_cast<int>(values.size());
-    if (gdal_.GDALRasterIO(band_, GF_Read, static_cast<int>(first), top, count, 1, row_.data(), count, 1, GDT_Float64,
-                           0, 0) != CE_None)
-      fail("cannot be read at row " + std::to_string(top + 1) + ": " + quiet.message("no reason is known"),
-           "it was not written completely, or is damaged");
+    const auto read_row = [&](GDALRasterBandH band, void* into, GDALDataType type) {
+      if (gdal_.GDALRasterIO(band, GF_Read, static_cast<int>(first), top, count, 1, into, count, 1, type, 0, 0) !=
+          CE_None)
+        fail("cannot be read at row " + std::to_string(top + 1) + ": " + quiet.message("no reason is known"),
+             "it was not written completely, or is damaged");
+    };
+    read_row(band_, row_.data(), GDT_Float64);
     for (std::size_t k = 0; k < values.size(); ++k) values[k] = value_of(row_[k]);
+    if (mask_ != nullptr) {
+      seen_.resize(values.size());
+      read_row(mask_, seen_.data(), GDT_Byte);
+      for (std::size_t k = 0; k < values.size(); ++k)
+        if (seen_[k] == 0) values[k] = std::numeric_limits<float>::quiet_NaN();
+    }
     if (j % kRowsKept == 0) gdal_.GDALFlushCache(data_.get());
   }
 
@@ -146,6 +156,15 @@ class GdalRaster final : public RasterRows {
     if (given != 0) scale_ = scale;
     const double offset = gdal_.GDALGetRasterOffset(band_, &given);
     if (given != 0) offset_ = offset;
+    mask_ = mask();
+  }
+
+  /// Null: there is none. GDAL takes a band of transparency for a mask only where values are integers.
+  [[nodiscard]] GDALRasterBandH mask() const {
+    if ((gdal_.GDALGetMaskFlags(band_) & (GMF_ALL_VALID | GMF_NODATA)) == 0) return gdal_.GDALGetMaskBand(band_);
+    const int count = gdal_.GDALGetRasterCount(data_.get());
+    const GDALRasterBandH last = gdal_.GDALGetRasterBand(data_.get(), count);
+    return count > 1 && gdal_.GDALGetRasterColorInterpretation(last) == GCI_AlphaBand ? last : nullptr;
   }
 
   [[nodiscard]] float value_of(double stored) const {
@@ -158,11 +177,13 @@ class GdalRaster final : public RasterRows {
   OfflineGdal offline_;
   OwnedByUs<GDALDatasetH> data_;
   GDALRasterBandH band_ = nullptr;
+  GDALRasterBandH mask_ = nullptr;  // of the file or of its transparency; null: none
   RasterFrame frame_;
   bool upside_down_ = false;
   std::optional<double> none_;
   double scale_ = 1, offset_ = 0;
   std::vector<double> row_;
+  std::vector<std::uint8_t> seen_;  // 0 where the mask hides a value
 };
 
 }  // namespace

@@ -175,8 +175,25 @@ class Rasters(Gis):
         text = self.digest("square.poly", *self.SIZE)
         for other in ("depth.tif", "depth.nc"):
             self.assertEqual(self.digest("square.poly", "--raster", "depth=" + other, *self.SIZE[2:]), text)
+        self.masks()
         self.file("depth.tif", "not a TIFF")
         self.refuse("mesh", "square.poly", "--raster", "depth=depth.tif", *self.SIZE[2:], says=["depth.tif", "gdalinfo"])
+
+    def masks(self):
+        """A value that a mask or a band of transparency hides is none, as one that is said to be none."""
+        hidden = lambda x, y: -9999.0 if abs(x - 3) < 0.5 and y > 1.5 else depth_at(x, y)
+        self.file("none.asc", grid_text(81, 81, 0.05, value=hidden).replace("cellsize 0.05", "cellsize 0.05\nNODATA_value -9999"))
+        self.tool("gdalwarp", "-q", "-dstalpha", "none.asc", "alpha.tif")
+        mask = ["gdal_translate", "-q", "-b", "1", "-mask", "2", "alpha.tif"]
+        self.tool(*mask, "beside.tif")
+        self.assertTrue((self.folder / "beside.tif.msk").exists())
+        self.tool(*mask, "inside.tif", "--config", "GDAL_TIFF_INTERNAL_MASK", "YES")
+        self.assertFalse((self.folder / "inside.tif.msk").exists())
+        self.tool("gdalbuildvrt", "-q", "joined.vrt", "inside.tif")
+        expected = self.digest("square.poly", "--raster", "depth=none.asc", *self.SIZE[2:])
+        self.assertNotEqual(expected, self.digest("square.poly", *self.SIZE))
+        for other in ("alpha.tif", "beside.tif", "inside.tif", "joined.vrt"):
+            self.assertEqual(self.digest("square.poly", "--raster", "depth=" + other, *self.SIZE[2:]), expected, other)
 
     def test_degrees(self):
         """A grid in degrees serves a domain in degrees, which is in meters when it is meshed."""
