@@ -57,13 +57,28 @@ class FeatureReader {
 
   /// GeoJSON of 2008 could name another system; names of the default one vary.
   void read_system(const Json& root) {
-    const auto name = Json::json_pointer("/crs/properties/name");
-    if (!root.is_object() || !root.contains(name) || !root[name].is_string()) return;
-    found_.system = root[name].get<std::string>();
+    const auto crs = root.is_object() ? root.find("crs") : root.end();
+    if (!root.is_object() || crs == root.end() || crs->is_null()) return;
+    found_.system = system_in(*crs);
+    if (found_.system.empty())
+      fail("has a member \"crs\" that names no system", "remove it if coordinates are longitudes and latitudes");
     found_.in_degrees = is_geographic_system(found_.system);
     const int code = epsg_code_in(found_.system);
     if (const auto zone = utm_zone_of_epsg(code)) found_.projection = zone->name();
     use_mercator(code);
+  }
+
+  /// By its name, by the number of an authority, or by an address.
+  [[nodiscard]] static std::string system_in(const Json& crs) {
+    const auto member = [&](const char* of) {
+      const Json::json_pointer place(of);
+      return crs.is_object() && crs.contains(place) ? crs[place] : Json();
+    };
+    for (const char* name : {"/properties/name", "/properties/href"})
+      if (const Json text = member(name); text.is_string()) return text.get<std::string>();
+    const Json authority = member("/type"), code = member("/properties/code");
+    if (!authority.is_string() || code.is_null()) return "";
+    return authority.get<std::string>() + ":" + (code.is_string() ? code.get<std::string>() : code.dump());
   }
 
   /// Positions in Mercator's projection become degrees when they are read.

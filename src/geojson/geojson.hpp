@@ -36,12 +36,13 @@ struct GeoFeatures {
   Names names;             ///< names for markers and regions
   bool in_degrees = true;  ///< longitudes and latitudes, as the format has it, unless an old "crs" says otherwise; also
                            ///< what was in Mercator's projection
+  bool in_meters = false;  ///< those of a plane, by what the "crs" names
   std::string projection;  ///< the UTM zone that the "crs" names by its EPSG code; empty: none
   std::string system;      ///< what the "crs" names; empty: nothing
   std::vector<std::string> warnings;
 
   /// Whether it is known what the numbers of positions mean.
-  [[nodiscard]] bool knows_system() const { return in_degrees || !projection.empty() || system.empty(); }
+  [[nodiscard]] bool knows_system() const { return in_degrees || in_meters || !projection.empty() || system.empty(); }
 };
 
 // The markers that the property "boundary" stands for: "land", "island", "open".

@@ -12,6 +12,7 @@
 #include "geojson/each_point.hpp"
 #include "geojson/geojson.hpp"
 #include "geojson/rings_to_pslg.hpp"
+#include "gis/geographic_system.hpp"
 #include "gis/vector_file.hpp"
 #include "pslg/poly_file.hpp"
 
@@ -30,12 +31,22 @@ bool holds_input(const std::string& path) {
 
 namespace {
 
-/// Whether plane coordinates could as well be longitudes and latitudes, in a system that is known neither as one of
-/// them nor as one of meters.
+/// Whether plane coordinates could as well be longitudes and latitudes.
 bool could_be_degrees(GeoFeatures& features) {
-  bool could_be = !features.in_degrees && features.projection.empty() && features.system != kInMeters;
+  bool could_be = true;
   for_each_point(features, [&](const Point& p) { could_be = could_be && std::abs(p.x) <= 180 && std::abs(p.y) <= 90; });
   return could_be;
+}
+
+/// Of coordinates that go for those of a plane because their system is known neither as one of degrees nor as one of
+/// meters; empty: there is nothing to say.
+std::string warning_of_system(GeoFeatures& features) {
+  if (features.in_degrees || !features.projection.empty() || features.system == kInMeters) return "";
+  const std::string taken = "coordinates in the system '" + features.system + "' are taken for those of a plane";
+  if (could_be_degrees(features))
+    return taken + ", but look like degrees; if they are, convert the file: ogr2ogr -t_srs EPSG:4326";
+  if (features.knows_system() || features.system == kUnsaid) return "";
+  return taken + " in meters, since it is not known" + (can_read_vectors() ? "" : " without GDAL");
 }
 
 }  // namespace
@@ -43,10 +54,7 @@ bool could_be_degrees(GeoFeatures& features) {
 InputFile input_of(const std::string& file, GeoFeatures features, const std::string& projection) {
   InputFile input;
   input.warnings = features.warnings;
-  if (could_be_degrees(features))
-    input.warnings.push_back("coordinates in the system '" + features.system +
-                             "' are taken for those of a plane, but look like degrees; if they are, convert the file: "
-                             "ogr2ogr -t_srs EPSG:4326");
+  if (std::string warning = warning_of_system(features); !warning.empty()) input.warnings.push_back(std::move(warning));
   input.from_lonlat = features.in_degrees;
   input.projection = features.in_degrees ? project(features, projection, file) : features.projection;
   input.pslg = to_pslg(features);
@@ -59,9 +67,13 @@ namespace {
 /// not go for meters.
 InputFile read_geojson(const std::string& path, const std::string& projection) {
   GeoFeatures features = parse_geojson(path, read_file(path, kBeginsJson));
-  if (!features.knows_system() && !is_standard_stream(path) && can_read_vectors())
-    if (GeoFeatures known = parse_geojson(path, vector_as_geojson(path, "")); known.system != kInMeters)
+  if (!features.knows_system() && !is_standard_stream(path) && can_read_vectors()) {
+    GeoFeatures known = parse_geojson(path, vector_as_geojson(path, ""));
+    if (known.system == kInMeters)
+      features.in_meters = true;  // and remain as they are
+    else if (known.system != kWgs84 || may_be_wgs84(features.system))
       features = std::move(known);
+  }
   return input_of(path, std::move(features), projection);
 }
 

@@ -70,6 +70,10 @@ int epsg_code_in(std::string_view name) {
   return code;
 }
 
+bool may_be_wgs84(std::string_view name) {
+  return epsg_code_in(name) == 0 && name.find("84") != std::string_view::npos;
+}
+
 bool is_geographic_system(std::string_view name) {
   const auto has = [&](std::string_view part) { return name.find(part) != std::string_view::npos; };
   return has("CRS84") || has("CRS83") || has("CRS27") || name.starts_with("GCS_") ||

@@ -12,6 +12,10 @@ namespace driftmesh {
 /// The same for a code of the EPSG.
 [[nodiscard]] bool is_geographic_code(int code);
 
+/// Whether a name that is_geographic_system() does not know may yet be one of WGS 84: "WGS84", "+proj=longlat
+/// +datum=WGS84", or its definition.
+[[nodiscard]] bool may_be_wgs84(std::string_view name);
+
 /// The number at the end of a name that speaks of the EPSG, or of Esri, which has numbers of its own beyond those of
 /// the EPSG; 0: there is none.
 [[nodiscard]] int epsg_code_in(std::string_view name);

@@ -92,11 +92,11 @@ class VectorReader {
   }
 
   /// Decides whether coordinates are transformed; returns the name of the system that they are in then, empty for
-  /// degrees.
+  /// what became degrees.
   std::string use_system_of(OGRLayerH layer) {
     transformation_ = nullptr;
     const OGRSpatialReferenceH system = gdal_.OGR_L_GetSpatialRef(layer);
-    if (system == nullptr || !gdal_.is_on_globe(system)) return "unknown";
+    if (system == nullptr || !gdal_.is_on_globe(system)) return kUnsaid;
     if (gdal_.OSRIsProjected(system) != 0 && gdal_.OSRGetLinearUnits(system, nullptr) == 1 &&
         !gdal_.is_mercator(system)) {
       int north = 0;
@@ -106,24 +106,24 @@ class VectorReader {
       transform(system, code);  // from another datum: the zone's number says nothing about that
       return "EPSG:" + std::to_string(code);
     }
-    constexpr int kWgs84 = 4326;
-    transform(system, kWgs84);
-    return "";
+    constexpr int kWgs84Code = 4326;
+    return transform(system, kWgs84Code) ? "" : kWgs84;
   }
 
-  /// Coordinates become those of the system with this EPSG code, if they are in another one.
-  void transform(OGRSpatialReferenceH system, int code) {
+  /// Coordinates become those of the system with this EPSG code. Whether they are in another one.
+  bool transform(OGRSpatialReferenceH system, int code) {
     const OwnedByUs<OGRSpatialReferenceH> target(
         gdal_.OSRNewSpatialReference(nullptr), [this](OGRSpatialReferenceH s) { gdal_.OSRDestroySpatialReference(s); });
     gdal_.OSRImportFromEPSG(target.get(), code);
     gdal_.OSRSetAxisMappingStrategy(target.get(), OAMS_TRADITIONAL_GIS_ORDER);
-    if (gdal_.OSRIsSame(system, target.get()) != 0) return;
+    if (gdal_.OSRIsSame(system, target.get()) != 0) return false;
     transformation_ = OwnedByUs<OGRCoordinateTransformationH>(
         gdal_.OCTNewCoordinateTransformation(system, target.get()),
         [this](OGRCoordinateTransformationH t) { gdal_.OCTDestroyCoordinateTransformation(t); });
     if (transformation_ == nullptr)
       throw InputError({file_}, quiet_.message("has an unknown coordinate system"),
                        "reproject it with ogr2ogr -t_srs EPSG:" + std::to_string(code));
+    return true;
   }
 
   void read_features(OGRLayerH layer, Json& features) const {

@@ -317,6 +317,25 @@ class Vectors(Gis):
             self.assertAlmostEqual(self.area("of.vtu") / area, 1, delta=1e-6, msg=str(code))
             self.assertAlmostEqual(self.area("of.vtu") / area, 1, delta=1e-6)
 
+    def test_geojson_in_a_system_that_nobody_knows(self):
+        """GDAL takes degrees for granted then. Coordinates are those of a plane, and the summary says so."""
+        ring = [[0, 0], [4, 0], [4, 4], [0, 0]]
+        for scale, looks in ((1, True), (1000, False)):
+            polygon = {"type": "Polygon", "coordinates": [[[x * scale, y * scale] for x, y in ring]]}
+            for crs in ({"type": "name", "properties": {"name": "EPSG:99999"}}, {"type": "name", "properties": {"name": "local"}},
+                        {"type": "link", "properties": {"href": "http://127.0.0.1:9/crs", "type": "proj4"}}):
+                self.file("in.geojson", json.dumps({**polygon, "crs": crs}))
+                result = self.run_program("mesh", "in.geojson", "-o", "of.vtu")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                said = result.stdout + result.stderr
+                self.assertIn(f"system '{next(iter(crs['properties'].values()))}' are taken for those of a plane", said)
+                self.assertIn("look like degrees" if looks else "not known", said)
+                self.assertAlmostEqual(self.area("of.vtu"), 8 * scale * scale)
+        degrees = {"type": "Polygon", "coordinates": [ring]}
+        for name in ("WGS84", "+proj=longlat +datum=WGS84 +no_defs", "urn:ogc:def:crs:OGC:2:84", "NAD83", "EPSG:4979"):
+            self.file("in.geojson", json.dumps({**degrees, "crs": {"type": "name", "properties": {"name": name}}}))
+            self.assertIn("UTM", self.features("in.geojson").get("projection") or "", name)
+
     def area(self, mesh):
         return float(re.search(r"(?m)^area +([0-9.e+]+)$", self.succeed("check", mesh)).group(1))
 

@@ -304,7 +304,7 @@ TEST_CASE("whatever system of longitudes and latitudes a file names, it is in de
     CHECK(!is_geographic_code(code));
 }
 
-TEST_CASE("coordinates in another system are those of a plane, with a warning if they look like degrees") {
+TEST_CASE("coordinates in an unknown system are those of a plane, with a warning") {
   const std::string degrees = "[[-70,41],[-69.9,41],[-69.9,41.1],[-70,41]]",
                     meters = "[[700000,6000000],[700900,6000000],[700000,6000900],[700000,6000000]]";
   for (const char* name : {"EPSG:2154", "unknown", "ESRI:104199", "EPSG:4807"}) {
@@ -314,9 +314,40 @@ TEST_CASE("coordinates in another system are those of a plane, with a warning if
     CHECK(found.pslg.points[0] == Point{-70, 41});
     REQUIRE(found.warnings.size() == 1);
     CHECK(found.warnings[0].find("'" + std::string(name) + "'") != std::string::npos);
-    CHECK(parse_geojson_input("x.json", in_system(name, meters)).warnings.empty());
+    CHECK(found.warnings[0].find("look like degrees") != std::string::npos);
+    const InputFile far = parse_geojson_input("x.json", in_system(name, meters));
+    CHECK(far.projection.empty());
+    CHECK(far.warnings.size() == (std::string(name) == "unknown" ? 0 : 1));  // a file that says nothing is in a plane
   }
   CHECK(parse_geojson_input("x.json", in_system("meters", degrees)).warnings.empty());
+}
+
+TEST_CASE("a member crs names a system in one of three ways, or is refused") {
+  const auto with = [](const std::string& crs) {
+    return R"({"type": "Polygon", "crs": )" + crs +
+           R"(, "coordinates": [[[-70,41],[-69.9,41],[-69.9,41.1],[-70,41]]]})";
+  };
+  const auto warnings = [&](const std::string& crs) { return parse_geojson_input("x.json", with(crs)).warnings; };
+  for (const char* degrees :
+       {"null", R"({"type": "EPSG", "properties": {"code": 4283}})",
+        R"({"type": "EPSG", "properties": {"code": "4326"}})",
+        R"({"type": "link", "properties": {"href": "http://www.opengis.net/def/crs/EPSG/0/4326"}})"}) {
+    CAPTURE(degrees);
+    CHECK(parse_geojson_input("x.json", with(degrees)).projection == "UTM zone 19N");
+    CHECK(warnings(degrees).empty());
+  }
+  for (const auto& [crs, name] :
+       {std::pair{R"({"type": "EPSG", "properties": {"code": 99999}})", "'EPSG:99999'"},
+        {R"({"type": "link", "properties": {"href": "http://example.com/crs/42", "type": "proj4"}})",
+         "'http://example.com/crs/42'"}}) {
+    CAPTURE(crs);
+    REQUIRE(warnings(crs).size() == 1);
+    CHECK(warnings(crs)[0].find(name) != std::string::npos);
+  }
+  for (const char* nothing : {"{}", "[]", "7", R"("EPSG:4326")", R"({"type": "name", "properties": {}})",
+                              R"({"type": "name", "properties": {"name": 4326}})",
+                              R"({"type": 5, "properties": {"code": 4326}})", R"({"properties": 1})"})
+    CHECK(error_of_text(with(nothing)).find("names no system") != std::string::npos);
 }
 
 TEST_CASE("longitudes count on across the 180th meridian") {
