@@ -26,6 +26,7 @@ struct ClosedChannels {
 ///   percent of the width and 10 percent of the way.
 /// - A channel is cut off straight across where it gets that narrow. Where the domain is too narrow at a single place,
 ///   between two headlands, the land between them is half as wide as the gap was, or less.
+/// - Between three banks each two of which are that near nothing remains, though a wider disk may fit there.
 /// - All parts that remain and into which a disk of that width fits are the domain. What is cut off from all of them
 ///   goes.
 /// - New segments get the marker that most of the filled banks had. Other segments stay as they were, to the last bit;
