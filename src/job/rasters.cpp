@@ -16,10 +16,12 @@ namespace {
 
 std::string warning_of(const std::string& name, const std::string& file, const OpenedRaster& opened,
                        std::size_t points) {
-  std::string parts;
-  if (opened.outside > 0) parts = std::to_string(opened.outside) + " lie outside of " + file;
-  if (opened.without > 0)
-    parts += (parts.empty() ? "" : " and ") + std::to_string(opened.without) + " lie where " + file + " has no value";
+  const auto part = [&](std::size_t count, const char* one, const char* several) {
+    return count == 0 ? "" : std::to_string(count) + (count == 1 ? one : several) + file;
+  };
+  const std::string outside = part(opened.outside, " lies outside of ", " lie outside of "),
+                    without = part(opened.without, " has no value in ", " have no value in "),
+                    parts = outside + (outside.empty() || without.empty() ? "" : " and ") + without;
   return "raster " + name + ": of " + std::to_string(points) + " points of the domain, " + parts +
          "; the nearest value counts there";
 }

@@ -151,10 +151,17 @@ enum class Cover : unsigned char { kOutside, kWithout, kValue };
 /// What a raster has at points, where those before it have no value.
 void note_cover(const TiledGrid& grid, const Box& extent, const PlaceMap& to_source, std::span<const Point> points,
                 std::vector<Cover>& covers) {
+  // What is on a side of the raster is in the cell there, not in one beyond.
+  const double dx = grid.frame().dx / 4, dy = grid.frame().dy / 4;
+  const Box inside{{extent.low.x + dx, extent.low.y + dy}, {extent.high.x - dx, extent.high.y - dy}};
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (covers[k] == Cover::kValue) continue;
     const Point q = to_source ? to_source(points[k]) : points[k];
-    if (extent.contains(q)) covers[k] = has_value_at(grid, q) ? Cover::kValue : Cover::kWithout;
+    if (extent.contains(q))
+      covers[k] = has_value_at(grid, {std::clamp(q.x, inside.low.x, inside.high.x),
+                                      std::clamp(q.y, inside.low.y, inside.high.y)})
+                      ? Cover::kValue
+                      : Cover::kWithout;
   }
 }
 

@@ -31,9 +31,8 @@ struct OpenedRaster {
 /// Reads a raster around the box of a domain: an ESRI ASCII grid (.asc) by itself, anything else by GDAL. The file is
 /// read once, row by row; what is needed of it is kept in tiles, in memory or, where it is large, on disk (see
 /// MappedRoom).
-/// - Where the raster has no value, that of the nearest point which has one counts; all within an eighth of the
-/// domain's
-///   size around it are considered.
+/// - Where the raster has no value, that of the nearest point which has one counts, of all within an eighth of the
+///   domain's size around it.
 /// - A raster in other coordinates than the domain is resampled bilinearly (see resample); values are kept in single
 ///   precision.
 /// Errors: FileError, and InputError for a damaged file, one that does not overlap the domain, and one without values

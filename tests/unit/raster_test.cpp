@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/formatted.hpp"
 #include "driftmesh/error.hpp"
 #include "gis/transverse_mercator.hpp"
 #include "raster/ascii_grid.hpp"
@@ -120,6 +121,27 @@ TEST_CASE("values are bilinear between the points of a grid, and those of the ne
   CHECK(raster.over({{-far, -far}, {far, far}}).low == 1);
   CHECK(raster.over({{-far, -far}, {far, far}}).high == 60);
   CHECK(raster.over({{12, 26}, {15.9, 30}}).high == doctest::Approx(1.975));
+}
+
+TEST_CASE("points on the sides of a raster have its values, alone and in a stack") {
+  const TemporaryFolder folder;
+  const auto grid = [&](const std::string& name, double west, double south, const std::string& values) {
+    std::string path = (folder.path() / name).string();
+    std::ofstream(path) << formatted("ncols 3\nnrows 2\nxllcorner {}\nyllcorner {}\ncellsize 0.1\n{}\n", west, south,
+                                     values);
+    return path;
+  };
+  const std::string full = grid("full.asc", 0.7, 20.2, "1 2 3 4 5 6"),
+                    gap = grid("gap.asc", 0.7, 20.2, "1 2 3 4 5 -9999"),
+                    coarse = grid("coarse.asc", 0.95, 20.35, "1 2 3 4 5 6");
+  std::vector<Point> sides;
+  for (const double x : {0.7, 0.8, 0.9, 1.0})
+    for (const double y : {20.2, 20.3, 20.4}) sides.push_back({x, y});
+  RasterPlace place{.domain = Box::of(sides), .points = sides, .projection = {}};
+  CHECK(open_raster(full, place).without == 0);
+  CHECK(open_rasters({full, coarse}, place, {}).without == 0);
+  // One cell is missing, and the four corners of it are nearest to it or to others.
+  CHECK(open_rasters({gap, gap}, place, {}).without == open_raster(gap, place).without);
 }
 
 TEST_CASE("the slope of a plane is the same everywhere") {
