@@ -44,6 +44,23 @@ Window window_of(const RasterFrame& whole, const std::vector<double>& limits) {
   return window;
 }
 
+/// An outline passes between values.
+void refuse_small(const Window& window, const RasterFrame& whole, const Request::Input& input,
+                  const std::string& file) {
+  if (window.frame.columns > 1 && window.frame.rows > 1) return;
+  if (input.contour_box.empty())
+    throw InputError({file}, "has less than two rows or columns, and no outline passes between them",
+                     "give a raster with more");
+  const Box box = box_of(whole);
+  throw Keyed<InputError>(
+      KeyText::of(
+          "{}: has less than two rows or columns within {}; its values, from west to east, are at {} to {}, and "
+          "from south to north at {} to {}",
+          file, KeyText::key("input.contour-box"), shortest_text(box.low.x), shortest_text(box.high.x),
+          shortest_text(box.low.y), shortest_text(box.high.y)),
+      {file});
+}
+
 std::vector<LevelPart> trace(RasterRows& rows, const Window& window, const Contour& contour) {
   LevelOutline outline(window.frame, contour.level, contour.below);
   std::vector<float> row(static_cast<std::size_t>(window.frame.columns));
@@ -122,18 +139,15 @@ InputFile contour_input(const Request::Input& input) {
   const std::string file = contour_files(input);
   const std::unique_ptr<RasterRows> rows = open_mosaic(files_in(input.rasters.at(contour.raster)));
   const Window window = window_of(rows->frame(), input.contour_box);
-  std::vector<LevelPart> parts;
-  if (window.frame.columns > 1 && window.frame.rows > 1) parts = trace(*rows, window, contour);
+  refuse_small(window, rows->frame(), input, file);
+  std::vector<LevelPart> parts = trace(*rows, window, contour);
   if (parts.empty())
     throw Keyed<InputError>(KeyText::of("{}: is nowhere {} {}, which {} asks for; give another level, or a raster that "
                                         "counts the other way",
                                         file, contour.below ? "below" : "above", shortest_text(contour.level),
                                         KeyText::key("input.contour")),
                             {file});
-  const RasterFrame& frame = window.frame;
-  const Box sides{frame.first,
-                  {frame.first.x + static_cast<double>(frame.columns - 1) * frame.dx,
-                   frame.first.y + static_cast<double>(frame.rows - 1) * frame.dy}};
+  const Box sides = box_of(window.frame);
   GeoFeatures features;
   for (LevelPart& part : meant_parts(std::move(parts), input.contour_seeds, file)) {
     for (const PolygonRing& ring : part.rings) add_open_sea(ring, sides, features);

@@ -42,6 +42,12 @@ RasterFrame frame_around(const RasterFrame& a, const RasterFrame& b) {
   return both;
 }
 
+Box box_of(const RasterFrame& frame) {
+  return {frame.first,
+          {frame.first.x + static_cast<double>(frame.columns - 1) * frame.dx,
+           frame.first.y + static_cast<double>(frame.rows - 1) * frame.dy}};
+}
+
 MosaicRows::MosaicRows(std::vector<RasterTile> tiles) : frame_(tiles.front().frame) {
   for (const RasterTile& tile : tiles) frame_ = frame_around(frame_, tile.frame);
   any_ = open_raster_rows(tiles.front().path);

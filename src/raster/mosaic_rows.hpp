@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/box.hpp"
 #include "gis/raster_rows.hpp"
 
 namespace driftmesh {
@@ -19,6 +20,9 @@ struct RasterTile {
 
 /// Around both of two frames on one grid.
 [[nodiscard]] RasterFrame frame_around(const RasterFrame& a, const RasterFrame& b);
+
+/// From the first value to the last: half a cell less on each side than the raster has.
+[[nodiscard]] Box box_of(const RasterFrame& frame);
 
 /// Rasters on one grid and in one system, as one. Where several have a value, that of the first counts. A file is open
 /// only while rows that it has are read.

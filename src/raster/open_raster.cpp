@@ -183,11 +183,6 @@ struct NearTile {
   std::optional<Point> center;  // the domain's, in its coordinates; absent: they are the same
 };
 
-Box box_of(const RasterFrame& f) {
-  return {f.first,
-          {f.first.x + static_cast<double>(f.columns - 1) * f.dx, f.first.y + static_cast<double>(f.rows - 1) * f.dy}};
-}
-
 /// The distances in the domain between the columns and between the rows of a raster around a place.
 std::pair<double, double> spacings_in(const RasterFrame& frame, const Point& at, const PlaceMap& from_source) {
   if (!from_source) return {frame.dx, frame.dy};

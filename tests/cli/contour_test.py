@@ -91,7 +91,11 @@ class Contours(Cli):
         self.refuse(*mesh, "--contour", "depth=0", "--contour-seeds", "1,2,3", code=2, says=["one number"])
         self.refuse(*mesh, "--contour", "depth=7", says=["depth.asc", "nowhere above 7"])
         self.refuse(*mesh, "--contour", "depth=0", "--contour-seeds", "1001,2001", says=["(1001, 2001)", "--contour-seeds"])
-        self.refuse(*mesh, "--contour", "depth=0", "--contour-box", "0,0,1,1", says=["nowhere above 0"])
+        self.refuse(*mesh, "--contour", "depth=0", "--contour-box", "0,0,1,1", code=1,
+                    says=["depth.asc", "less than two rows or columns within --contour-box", "1000 to 1010", "2000 to 2010"])
+        self.refuse(*mesh, "--contour", "depth=0", "--contour-box", "1008.2,2000,1008.9,2010", says=["within --contour-box"])
+        self.write("row.asc", grid_text(11, 1, 1, (1000, 2000), lambda x, y: x - 1005))
+        self.refuse("mesh", "--raster", "depth=row.asc", "--area", "1", "-o", "a.vtu", "--contour", "depth=0", says=["row.asc", "less than two rows"])
 
     def test_stacks_fill_gaps_and_blend(self):
         self.write("square.poly", "4 2 0 0\n1 0 0\n2 4 0\n3 4 4\n4 0 4\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n")
