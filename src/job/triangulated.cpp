@@ -113,8 +113,14 @@ Triangulated triangulate_domain(const Request& request, const Domain& domain, st
       result.bounds = bounds_of(request, domain, result.mesh, ranks);
     if (std::int64_t& most = result.bounds.rules.most_points; most != INT64_MAX)
       most -= static_cast<std::int64_t>(result.mesh.live_vertices() - before);
-    if (!if_large || result.acute_corners > 0) count();
-    warn(request, count_warnings(wanted_triangles(request.bounds, ranks), result.forecast), watch);
+    double tried = 0;
+    if (const double wanted = wanted_triangles(request.bounds, ranks); wanted > 0) {
+      const TriedArea found = try_area_for_count(result.mesh, result.bounds, wanted);
+      result.bounds.plain.area = found.area;
+      tried = found.triangles;
+    }
+    if (!if_large || result.acute_corners > 0 || tried > 0) count();
+    warn(request, count_warnings(wanted_triangles(request.bounds, ranks), tried > 0 ? tried : result.forecast), watch);
     warn(request, narrow_warnings(result.mesh, result.bounds, result.forecast), watch);
   });
   return result;

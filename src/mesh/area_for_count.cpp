@@ -1,41 +1,76 @@
 #include "mesh/area_for_count.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "mesh/bound_forecast.hpp"
 #include "mesh/forecast.hpp"
+#include "mesh/refiner.hpp"
 
 namespace driftmesh {
+namespace {
+
+struct Look {
+  double area = 0;
+  double excess = 0;  // how many times too many triangles there are, as a logarithm: it falls as the area grows
+};
+
+/// The nearest to no excess of some looks, the first one at `area`; the last one if it is `close`. Areas are at most
+/// `domain`.
+template <class Excess>
+Look settle(const Excess& excess, double area, double domain, double close, int looks) {
+  constexpr double kBeyond = 1.2;  // steps this much too far bracket what is sought
+  Look best, many, few;            // an area of 0: not seen
+  for (int look = 0; look < looks; ++look) {
+    const Look here{area, excess(area)};
+    if (look == 0 || std::fabs(here.excess) < std::fabs(best.excess)) best = here;
+    (here.excess > 0 ? many : few) = here;
+    if (std::fabs(best.excess) <= close || many.area >= domain) break;
+    if (many.area == 0 || few.area == 0) {
+      area = std::min(area * std::exp(kBeyond * here.excess), domain);
+    } else {
+      // Regula falsi in logarithms; every other step halves, since the excess falls ever slower.
+      const double part = look % 2 == 0 ? many.excess / (many.excess - few.excess) : 0.5;
+      area = many.area * std::pow(few.area / many.area, part);
+    }
+  }
+  return best;
+}
+
+double triangles_made(Triangulation mesh, const QualityBounds& bounds, double count) {
+  constexpr double kAbandon = 4;  // times as many as are wanted
+  Refiner refiner(mesh, bounds);
+  refiner.limit_triangles(std::llround(kAbandon * count) + 1);
+  static_cast<void>(refiner.refine());
+  return static_cast<double>(mesh.live_triangles());
+}
+
+}  // namespace
+
 double area_for_count(const Triangulation& mesh, const QualityBounds& bounds, double count) {
   constexpr double kAgrees = 0.02, kClose = 0.005;
-  constexpr int kMostLooks = 12;
-  const double domain = area_of(mesh);
-  // How many times too many the forecast has, as a logarithm: it falls as the area grows.
+  constexpr int kMostLooks = 24;
+  const double domain = area_of(mesh), share = kTrianglesPerBound * domain / count;
   const auto excess = [&](double area) {
     QualityBounds asked = bounds;
     asked.plain.area = area;
     return std::log(forecast_triangles(mesh, asked) / count);
   };
-  const double share = kTrianglesPerBound * domain / count;
-  double low = share, above = excess(low);  // more than count
-  if (!(std::fabs(above) > kAgrees)) return share;
-  double high = low, below = above;  // less than count
-  if (above > 0) {
-    high = domain;
-    below = high > low ? excess(high) : above;
-    if (!(below < 0)) return domain;
-  } else {
-    for (int looks = 0; above < 0 && looks < kMostLooks; ++looks) above = excess(low /= 2);
-  }
-  // Regula falsi in logarithms; every other step halves, since the excess falls ever slower.
-  for (int looks = 0; looks < kMostLooks; ++looks) {
-    const double part = looks % 2 == 0 ? above / (above - below) : 0.5;
-    const double area = low * std::pow(high / low, part), here = excess(area);
-    if (std::fabs(here) < kClose) return area;
-    (here > 0 ? low : high) = area;
-    (here > 0 ? above : below) = here;
-  }
-  return low;
+  return std::fabs(excess(share)) <= kAgrees ? share
+                                             : settle(excess, std::min(share, domain), domain, kClose, kMostLooks).area;
+}
+
+TriedArea try_area_for_count(const Triangulation& mesh, const QualityBounds& bounds, double count) {
+  constexpr double kMost = 100'000, kTooMany = 2, kClose = 0.05;
+  constexpr int kTrials = 8;
+  if (count > kMost || forecast_triangles(mesh, bounds) > kTooMany * count) return {bounds.plain.area};
+  const auto excess = [&](double area) {
+    QualityBounds tried = bounds;
+    tried.plain.area = area;
+    return std::log(triangles_made(mesh, tried, count) / count);
+  };
+  const Look found = settle(excess, bounds.plain.area, area_of(mesh), kClose, kTrials);
+  return {found.area, std::round(count * std::exp(found.excess))};
 }
 
 }  // namespace driftmesh

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <random>
 #include <string>
 #include <utility>
@@ -254,8 +255,37 @@ TEST_CASE("a mesh has as many triangles as are wanted, within a few percent wher
       const double share = share_of_wanted(pslg, times * alone);
       std::printf("%-28s %4.0f times its details: %.3f of the triangles wanted\n", g.words().c_str(), times, share);
       CAPTURE(times);
-      const double few = times * alone < 3000 ? 0.25 : 0;  // single triangles count
-      CHECK(std::fabs(share - 1) < std::max(few, times < 5 ? 0.13 : 0.05));
+      // Combs as regular as these go from one number to another at once.
+      CHECK(std::fabs(share - 1) < (times < 20 ? 0.1 : 0.05));
+    }
+  }
+}
+
+TEST_CASE("few triangles are as many as are wanted where the outline leaves a choice, and a warning says where not") {
+  for (const int corners : {8, 24, 64, 150}) {
+    Pslg disk;
+    for (const int k : first_ids<int>(to_index(corners))) {
+      const double angle = 2 * std::numbers::pi * k / corners;
+      disk.points.push_back({std::cos(angle), std::sin(angle)});
+      disk.segments.push_back({k, (k + 1) % corners, 1});
+    }
+    const auto least = static_cast<double>(record_of(disk, 20).triangles);
+    for (const double wanted : {20.0, 60.0, 100.0, 130.0, 160.0, 200.0, 250.0, 400.0, 700.0, 3000.0}) {
+      CAPTURE(corners);
+      CAPTURE(wanted);
+      job::Request request;
+      request.bounds.angle = 20;
+      request.bounds.triangles = wanted;
+      const job::RunRecord record = made(disk, request).record;
+      const double share = static_cast<double>(record.triangles) / wanted;
+      const bool told = std::ranges::any_of(
+          record.warnings, [](const std::string& w) { return w.find("are wanted") != std::string::npos; });
+      if (wanted < 1.1 * least) {
+        CHECK(told == (share > 1.1));
+      } else if (wanted > 1.5 * least) {
+        CHECK(std::fabs(share - 1) < std::max(0.051, 5 / wanted));
+        CHECK(!told);
+      }
     }
   }
 }

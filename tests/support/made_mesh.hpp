@@ -52,6 +52,7 @@ struct Made {
   const std::unique_ptr<job::Refined> refined = refined_here(input, request, size, made.record, watch);
   if (refined->plan() != nullptr) made.decomposition = refined->plan()->decomposition;
   made.mesh = refined->take_piece(watch).mesh;
+  made.record.warnings = watch.take_warnings();
   return made;
 }
 
