@@ -204,10 +204,10 @@ std::uint64_t digest_on_ranks(std::uint64_t seed, AdaptReport& sums) {
 }
 
 constexpr std::array<std::uint64_t, 16> kRecordedSessions{
-    0x0ce1e285a1152cd0, 0x5ed05b907e78f4bd, 0x88b3df819714383a, 0xb8ba4eb479c0a397,
-    0x39ba52655e7c6da9, 0x65a235d3d4604d53, 0x68eca9023b355877, 0xf94c70a4d6939415,
-    0xf3fac3da1983affc, 0x77687da88acb612a, 0x726dc4a3c7c8a338, 0x534c543cebd8e002,
-    0x7033ce893fb0f570, 0xf11978fd8600ffde, 0xcb6d95671b9750ab, 0xf7f435ccb7340698};
+    0x67e32a30e01bc20b, 0x5ed05b907e78f4bd, 0x88b3df819714383a, 0x7a155e134db75c4e,
+    0x497662a484a7d629, 0x65a235d3d4604d53, 0xa41de8cd317aa56d, 0xd30e5caede9a62b2,
+    0xf3fac3da1983affc, 0x77687da88acb612a, 0x85a78fdc398e3360, 0x3eb18ee6b7984959,
+    0x14735826472b7fb5, 0xf11978fd8600ffde, 0x65796458a61f3bd5, 0x89b887a85cfa48c0};
 
 }  // namespace
 
