@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
+#include "base/formatted.hpp"
 #include "driftmesh/error.hpp"
 
 namespace driftmesh::protocol {
@@ -12,15 +12,15 @@ namespace driftmesh::protocol {
 SpeedSchedule::SpeedSchedule(const std::vector<SpeedChange>& changes) {
   for (const SpeedChange& change : changes) {
     if (!(change.at >= 0) || !std::isfinite(change.at) || !(change.factor >= 0) || !std::isfinite(change.factor))
-      throw Error("speeds change at finite times from 0 on, to finite factors from 0 on, not at " +
-                  std::to_string(change.at) + " to " + std::to_string(change.factor));
+      throw Error(formatted("speeds change at finite times from 0 on, to finite factors from 0 on, not at {} to {}",
+                            change.at, change.factor));
     if (change.at > steps_.back().at)
       steps_.push_back(change);
     else if (change.at == 0 && steps_.size() == 1)
       steps_.back().factor = change.factor;
     else
-      throw Error("changes of a speed must be in the order of time: " + std::to_string(change.at) + " follows " +
-                  std::to_string(steps_.back().at));
+      throw Error(
+          formatted("changes of a speed must be in the order of time: {} follows {}", change.at, steps_.back().at));
   }
   if (steps_.back().factor == 0)
     throw Error("the last change of a rank's speed must not be to 0: its work would not end");

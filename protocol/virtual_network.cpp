@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/formatted.hpp"
 #include "driftmesh/error.hpp"
 
 namespace driftmesh::protocol {
@@ -14,7 +15,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 void require_positive(double value, const char* what) {
   if (!(value > 0) || value == kNever)
-    throw Error(std::string("virtual cluster: ") + what + " must be above 0, not " + std::to_string(value));
+    throw Error(formatted("virtual cluster: {} must be above 0, not {}", what, value));
 }
 
 }  // namespace

@@ -290,6 +290,18 @@ TEST_CASE("few triangles are as many as are wanted where the outline leaves a ch
   }
 }
 
+TEST_CASE("where the number of triangles jumps, a mesh has the nearer of both numbers") {
+  const Pslg comb = generate("comb", {{"pitch", "0.15"}, {"width", "0.02"}});
+  const auto more = static_cast<double>(record_of(comb, 20, 0.00365).triangles),
+             fewer = static_cast<double>(record_of(comb, 20, 0.0037).triangles);
+  REQUIRE(more > 1.4 * fewer);
+  for (double wanted = 1.06 * fewer; wanted < 0.94 * more; wanted += 20) {
+    CAPTURE(wanted);
+    const double nearer = wanted < std::sqrt(more * fewer) ? fewer : more;
+    CHECK(share_of_wanted(comb, wanted) * wanted == doctest::Approx(nearer).epsilon(0.03));
+  }
+}
+
 TEST_CASE("the forecast sees narrow gaps and small corners") {
   std::mt19937_64 random = seeded_generator("forecast");
   const auto cases = case_count(20);
