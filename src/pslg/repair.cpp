@@ -1,5 +1,6 @@
 #include "driftmesh/repair.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -7,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/formatted.hpp"
 #include "driftmesh/error.hpp"
 #include "driftmesh/id_vector.hpp"
 #include "geometry/box_tree.hpp"
@@ -96,12 +98,25 @@ void check_polygons(const Pslg& pslg, const std::string& file) {
   }
 }
 
+bool spans_plane(const std::vector<Point>& points) {
+  const auto other = std::ranges::find_if(points, [&](const Point& p) { return p != points.front(); });
+  return other != points.end() &&
+         std::ranges::any_of(points, [&](const Point& p) { return orient2d(points.front(), *other, p) != 0; });
+}
+
+/// Throws InputError if snapping has left nothing of a domain, whose box was this one, that has an area.
+void check_snapped(const Pslg& pslg, const Box& before, const std::string& file, double snap) {
+  if (spans_plane(pslg.points)) return;
+  throw InputError({file, 0}, formatted("has no area left when all that is at most {} apart is joined", snap),
+                   formatted("snap by a smaller distance: the domain is {:.6g} by {:.6g}", before.high.x - before.low.x,
+                             before.high.y - before.low.y));
+}
+
 void check_spans_plane(const Pslg& pslg, const std::string& file) {
+  if (spans_plane(pslg.points)) return;
   if (pslg.points.size() < 3)
     throw InputError({file, 0}, "has " + std::to_string(pslg.points.size()) + " different vertices",
                      "a mesh needs at least three");
-  for (const Point& p : pslg.points)
-    if (orient2d(pslg.points[0], pslg.points[1], p) != 0) return;
   throw InputError({file, 0}, "all vertices lie on one line", "a mesh needs an area");
 }
 
@@ -257,7 +272,10 @@ RepairReport repair(Pslg& pslg, const std::string& file, const RepairOptions& op
   RepairReport report;
   report.snap = options.snap;
   round_coordinates(pslg, report);
+  const bool has_area = spans_plane(pslg.points);
+  const Box before = Box::of(pslg.points);
   make_planar(pslg, file, options, report);
+  if (has_area && options.snap > 0) check_snapped(pslg, before, file, options.snap);
   check_spans_plane(pslg, file);
   check_seeds(pslg, file, report);
   return report;

@@ -205,6 +205,20 @@ TEST_CASE("input without a clear intent is an error") {
   CHECK(error_of(pslg) == "in.poly: all vertices lie on one line; a mesh needs an area");
 }
 
+TEST_CASE("a distance that joins the whole domain is named as what is wrong") {
+  const auto snapped = [](Pslg pslg, double snap) {
+    return error_text<InputError>([&] { (void)repair(pslg, "in.poly", {.snap = snap}); });
+  };
+  for (const double snap : {100.0, 4.0})
+    CHECK(snapped(square(), snap) == "in.poly: has no area left when all that is at most " +
+                                         std::to_string(static_cast<int>(snap)) +
+                                         " apart is joined; snap by a smaller distance: the domain is 4 by 4");
+  CHECK(snapped(square(), 0.5) == "no error");
+  Pslg line;
+  line.points = {{0, 0}, {1, 1}, {3, 3}};
+  CHECK(snapped(line, 100) == "in.poly: has 1 different vertices; a mesh needs at least three");
+}
+
 TEST_CASE("the published models need no repair") {
   for (const char* name : {"A", "key", "pipe", "cylinder_flow", "chesapeake"}) {
     CAPTURE(std::string(name));
