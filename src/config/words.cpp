@@ -76,7 +76,8 @@ Json schema_of(const KeyInfo& key) {
       schema.update(number_schema(key));
       break;
     case Kind::kTable:
-      schema["type"] = "object";
+      schema["type"] = {"object", "array"};
+      schema["items"] = {{"type", "string"}, {"pattern", "="}};
       break;
     case Kind::kList:
       schema["type"] = "array";

@@ -77,14 +77,33 @@ class Values {
   }
 
   [[nodiscard]] Table table(const KeyInfo& key, const YAML::Node& node) const {
+    if (node.IsSequence()) return table_of_words(key, node);
     if (!node.IsMap()) fail(key.name, node, "is not a table", "write for example {name: value}");
     Table table;
     for (const auto& entry : node) {
       const std::string name = text(key, entry.first);
-      if (!table.emplace(name, resolved(key, text(key.name + "." + name, entry.second))).second)
-        fail(key.name, entry.first, "has '" + name + "' twice", "remove one of them");
+      add(table, key, entry.first, name, text(key.name + "." + name, entry.second));
     }
     return table;
+  }
+
+  /// A list of what the command line takes one by one: [name=value, ...].
+  [[nodiscard]] Table table_of_words(const KeyInfo& key, const YAML::Node& node) const {
+    Table table;
+    for (const YAML::Node& item : node) {
+      const std::string word = text(key, item);
+      const std::size_t equals = word.find('=');
+      if (equals == std::string::npos)
+        fail(key.name, item, "has '" + word + "' in its list", "write NAME=VALUE, or a table, {name: value}");
+      add(table, key, item, word.substr(0, equals), word.substr(equals + 1));
+    }
+    return table;
+  }
+
+  void add(Table& table, const KeyInfo& key, const YAML::Node& node, const std::string& name,
+           const std::string& value) const {
+    if (!table.emplace(name, resolved(key, value)).second)
+      fail(key.name, node, "has '" + name + "' twice", "remove one of them");
   }
 
   [[nodiscard]] std::vector<double> numbers(const KeyInfo& key, const YAML::Node& node) const {
@@ -95,11 +114,16 @@ class Values {
   }
 
   [[nodiscard]] std::vector<std::string> outputs(const KeyInfo& key, const YAML::Node& node) const {
-    if (node.IsScalar()) return {output(key, node)};
+    if (node.IsScalar()) return {named_output(key, node)};
     if (!node.IsSequence()) fail(key.name, node, "is not a list", "write for example [mesh.vtu, mesh.msh]");
     std::vector<std::string> list;
-    for (const YAML::Node& item : node) list.push_back(output(key, item));
+    for (const YAML::Node& item : node) list.push_back(named_output(key, item));
     return list;
+  }
+
+  [[nodiscard]] std::string named_output(const KeyInfo& key, const YAML::Node& node) const {
+    if (text(key, node).empty()) fail(key.name, node, "is empty", "give it a value, or leave it out");
+    return output(key, node);
   }
 
   /// Inputs may be anywhere, but a file does not choose what is overwritten elsewhere.

@@ -43,7 +43,22 @@ bool matches_text(const Json& value, const std::string& text, const std::string&
   return value.is_array() && value.size() == 1 && value[0].is_string() && matches_text(value[0], text, folder);
 }
 
+/// A table as a list of NAME=VALUE.
+bool matches_words(const Json& value, const YamlNode& node, const std::string& folder) {
+  std::set<std::string> seen;
+  for (const YamlNode& item : node.items) {
+    const std::size_t equals = item.kind == Kind::kText ? item.text.find('=') : std::string::npos;
+    if (equals == std::string::npos) return false;
+    const std::string name = item.text.substr(0, equals);
+    if (!seen.insert(name).second || !value.contains(name) ||
+        !matches_text(value[name], item.text.substr(equals + 1), folder))
+      return false;
+  }
+  return seen.size() == value.size();
+}
+
 bool matches(const Json& value, const YamlNode& node, const std::string& folder) {
+  if (node.kind == Kind::kList && value.is_object()) return matches_words(value, node, folder);
   if (node.kind == Kind::kText) return matches_text(value, node.text, folder);
   if (node.kind == Kind::kList) {
     if (!value.is_array() || value.size() != node.items.size()) return false;
@@ -100,8 +115,8 @@ class RequestCheck {
     Json value = values_[full];
     if (path.negated) value = !value.get<bool>();
     if (!path.entry.empty()) value = value[path.entry];
-    const bool is_whole_table = value.is_object() && path.entry.empty() && value.size() != node.entries.size();
-    if (is_whole_table || !matches(value, node, folder_)) refuse(full);
+    const bool is_whole_table = value.is_object() && node.kind == Kind::kTable && path.entry.empty();
+    if ((is_whole_table && value.size() != node.entries.size()) || !matches(value, node, folder_)) refuse(full);
   }
 
   Json values_, defaults_;

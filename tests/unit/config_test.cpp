@@ -318,6 +318,18 @@ TEST_CASE("settings of one mesh name keys in full or by their options") {
   CHECK(refusal("cluster: {kind: real}\n") ==
         "run.yaml:1:11: 'cluster.kind' is a key of driftmesh run, not of driftmesh mesh; remove it");
   CHECK(refusal("quiet: maybe\n").find("it is either true or false") != std::string::npos);
+  const std::map<std::string, std::string> rasters = {{"depth", (folder.path() / "d=1.asc").string()},
+                                                      {"waves", (folder.path() / "w.asc").string()}};
+  CHECK(read("raster: {depth: d=1.asc, waves: w.asc}\n").input.rasters == rasters);
+  CHECK(read("raster: [depth=d=1.asc, waves=w.asc]\n").input.rasters == rasters);
+  CHECK(read("input: {rasters: [waves=w.asc, depth=d=1.asc]}\n").input.rasters == rasters);
+  CHECK(refusal("raster: [depth=d.asc, w.asc]\n") ==
+        "run.yaml:1:23: 'input.rasters' has 'w.asc' in its list; write NAME=VALUE, or a table, {name: value}");
+  CHECK(refusal("raster: [depth=d.asc, depth=w.asc]\n") ==
+        "run.yaml:1:23: 'input.rasters' has 'depth' twice; remove one of them");
+  for (const char* none : {"output: ''\n", "output: ['']\n"})
+    CHECK(refusal(none).ends_with("'output.meshes' is empty; give it a value, or leave it out"));
+  CHECK(refusal("raster: depth\n") == "run.yaml:1:9: 'input.rasters' is not a table; write for example {name: value}");
 }
 
 TEST_CASE("every shipped experiment is valid") {
