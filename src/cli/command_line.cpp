@@ -34,6 +34,12 @@ std::vector<std::string> backwards_for_cli11(const std::vector<std::string>& wor
   return backwards;
 }
 
+/// Whether a word stands behind "--", and nowhere before it.
+bool is_argument(const std::string& word, const std::vector<std::string>& words) {
+  const auto dashes = std::ranges::find(words, "--");
+  return std::find(dashes, words.end(), word) != words.end() && std::find(words.begin(), dashes, word) == dashes;
+}
+
 /// The option's name as declared to CLI11: "-a,--area", or "input".
 std::string declared(const Option& option) {
   if (option.kind == Option::Kind::kPositional) return option.name;
@@ -74,12 +80,17 @@ class Level {
     return false;
   }
 
-  void refuse_unknown() const {
+  /// `words`: all of the command line.
+  void refuse_unknown(const std::vector<std::string>& words) const {
     std::vector<std::string> unknown = app_.remaining();
     std::erase(unknown, "--");  // CLI11 keeps it, though it was understood
     if (unknown.empty()) return;
     const std::string word = unmasked(unknown.front());
-    if (word.starts_with('-') && !is_standard_stream(word)) refuse_option(word);
+    const bool is_option = word.starts_with('-') && !is_standard_stream(word);
+    if (is_argument(word, words))
+      throw UsageError("unexpected argument '" + word + "'" +
+                       (is_option ? ": after --, every word is the name of a file; options go before --" : ""));
+    if (is_option) refuse_option(word);
     if (command_.commands.empty()) throw UsageError("unexpected argument '" + word + "'");
     throw UsageError("unknown command '" + word + "'" + did_you_mean(word, command_names(command_)));
   }
@@ -184,7 +195,7 @@ void parse(const Command& program, const std::vector<std::string>& words, Call& 
     call.name += (level == &root ? "" : " ") + level->command().name;
     call.command = &level->command();
     if (level->prints(call)) return;
-    level->refuse_unknown();
+    level->refuse_unknown(words);
     if (failure && level->called() == nullptr) refuse_last(words.back(), level->command(), *failure);
     if (!failure) level->give(call);
   }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "cli/command.hpp"
@@ -23,7 +24,9 @@ constexpr Range kPositive{.least = 0, .above = true};
 /// Parses a text that consists of a number. Throws UsageError if it does not, or if the number is not finite or out of
 /// range.
 [[nodiscard]] double read_number(const std::string& text, const Range& range);
-[[nodiscard]] std::int64_t read_integer(const std::string& text, const Range& range);
+/// Likewise, for std::int64_t and std::uint64_t.
+template <std::integral Number>
+[[nodiscard]] Number read_integer(const std::string& text, const Range& range);
 
 // Functions for Option::take. Each stores the value in a variable that must outlive the command.
 
@@ -37,7 +40,8 @@ template <std::integral Number>
 [[nodiscard]] Take into(Number& to, Range range = {}) {
   range.least = std::max(range.least, static_cast<double>(std::numeric_limits<Number>::min()));
   range.most = std::min(range.most, static_cast<double>(std::numeric_limits<Number>::max()));
-  return [&to, range](const std::string& text) { to = static_cast<Number>(read_integer(text, range)); };
+  using Widest = std::conditional_t<std::is_signed_v<Number>, std::int64_t, std::uint64_t>;
+  return [&to, range](const std::string& text) { to = static_cast<Number>(read_integer<Widest>(text, range)); };
 }
 /// A text that is not empty.
 [[nodiscard]] Take into(std::string& to);

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -129,6 +130,12 @@ TEST_CASE("Errors suggest what was probably meant") {
   CHECK(problem({"mesh", "in.poly", "--such"}) == "unknown option --such");
   CHECK(problem({"mesh", "in.poly", "-x"}) == "unknown option -x");
   CHECK(problem({"mesh", "in.poly", "more"}) == "unexpected argument 'more'");
+  const std::string after_dashes = ": after --, every word is the name of a file; options go before --";
+  CHECK(problem({"mesh", "--", "in.poly", "--quiet"}) == "unexpected argument '--quiet'" + after_dashes);
+  CHECK(problem({"mesh", "in.poly", "--", "-q"}) == "unexpected argument '-q'" + after_dashes);
+  CHECK(problem({"mesh", "--quite", "--", "in.poly"}) == "unknown option --quite (did you mean --quiet?)");
+  CHECK(problem({"mesh", "--", "in.poly", "more"}) == "unexpected argument 'more'");
+  CHECK(problem({"mesh", "in.poly", "--", "more"}) == "unexpected argument 'more'");
   CHECK(problem({"mesh"}) == "INPUT is missing");
   CHECK(problem({"mesh", "in.poly", "--area"}) == "--area needs a value: AREA");
   CHECK(problem({"mesh", "in.poly", "-a"}) == "--area needs a value: AREA");
@@ -147,8 +154,34 @@ TEST_CASE("Numbers are complete and in range") {
   CHECK(problem({"mesh", "i", "--area", "+1e-3"}) == "none");
   CHECK(problem({"mesh", "i", "-n", "2.5"}) == "--count is '2.5', which is not a whole number");
   CHECK(problem({"mesh", "i", "-n", "10"}) == "--count is 10; it must be from 1 to 9");
+  CHECK(problem({"mesh", "i", "-n", "9999999999999999999"}) ==
+        "--count is 9999999999999999999; it must be from 1 to 9");
   CHECK(problem({"mesh", "i", "--speeds", "1,0"}) == "--speeds is 0; it must be above 0");
   CHECK(problem({"mesh", "i", "--speeds", "1,,2"}) == "--speeds is '', which is not a number");
+}
+
+TEST_CASE("Whole numbers have the limits of their types") {
+  const auto problem_with = [](auto& number, const std::string& text) -> std::string {
+    try {
+      into(number)(text);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  std::uint64_t seed = 0;
+  for (const std::string text : {"-1", "18446744073709551616"})
+    CHECK(problem_with(seed, text) == "is " + text + "; it must be from 0 to 18446744073709551615");
+  CHECK(problem_with(seed, "18446744073709551615") == "none");
+  CHECK(seed == UINT64_MAX);
+  std::int64_t number = 0;
+  CHECK(problem_with(number, "9223372036854775808") ==
+        "is 9223372036854775808; it must be from -9223372036854775808 to 9223372036854775807");
+  CHECK(problem_with(number, "-9223372036854775808") == "none");
+  CHECK(number == INT64_MIN);
+  std::int32_t small = 0;
+  CHECK(problem_with(small, "2147483648") == "is 2147483648; it must be from -2147483648 to 2147483647");
+  CHECK(problem_with(small, "--1") == "is '--1', which is not a whole number");
 }
 
 TEST_CASE("An option that prints something ends parsing") {
