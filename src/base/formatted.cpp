@@ -62,6 +62,7 @@ struct ValueText {
 
   std::string operator()(std::string_view value) const { return std::string(value); }
   std::string operator()(double value) const {
+    if (std::isnan(value)) return "nan";  // whose sign means nothing
     if (spec.precision < 0) return shortest(value);
     const auto format = spec.type == 'f' ? std::chars_format::fixed : std::chars_format::general;
     return written([&](char* begin, char* end) { return std::to_chars(begin, end, value, format, spec.precision); });

@@ -62,6 +62,7 @@ struct TextOf {
 }  // namespace
 
 std::string shortest_text(double number) {
+  if (std::isnan(number)) return "nan";  // whose sign means nothing
   constexpr double kPlain = 1e15;
   if (std::fabs(number) < kPlain && number == std::floor(number)) return formatted("{:.0f}", number);
   std::array<char, 32> text;

@@ -1,6 +1,7 @@
 #include "sizing/expression_field.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "driftmesh/error.hpp"
@@ -11,6 +12,7 @@ namespace driftmesh {
 namespace {
 
 std::string printed(double value) {
+  if (std::isnan(value)) return "nan";  // whose sign means nothing
   char text[32];
   std::snprintf(text, sizeof text, "%.17g", value);
   return text;

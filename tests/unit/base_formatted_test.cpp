@@ -55,4 +55,6 @@ TEST_CASE("numbers with fractions are those of fmt") {
     CAPTURE(value);
     CHECK(formatted("{} {:.6g} {:.0f}", value, value, value) == fmt::format("{} {:.6g} {:.0f}", value, value, value));
   }
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK(formatted("{} {} {:>5.1f}", nan, -nan, -nan) == "nan nan   nan");
 }

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <limits>
 #include <set>
 #include <string>
 
@@ -109,6 +110,7 @@ TEST_CASE("the nearest name is one that the entry point knows") {
 
 TEST_CASE("values in one line of YAML") {
   CHECK(text_of(Value(0.1)) == "0.1");
+  CHECK(text_of(Value(-std::numeric_limits<double>::quiet_NaN())) == "nan");
   CHECK(text_of(Value(std::string("a b"))) == "\"a b\"");
   CHECK(text_of(Value(std::string())) == "\"\"");
   CHECK(text_of(Value(std::vector<double>{1, 0.5})) == "[1, 0.5]");

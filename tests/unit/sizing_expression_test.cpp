@@ -74,6 +74,11 @@ TEST_CASE("what is not a number") {
     CHECK_MESSAGE(is_nan(expression), expression);
   CHECK(Expression("max(20, sqrt(x), 30)").at({-1, 0}) == 30);  // ignored where it is not the first
   CHECK(Expression("y/y < 1 ? 2 : 3").at({0, 0}) == 3);
+  const double value = std::numeric_limits<double>::quiet_NaN();
+  for (const double y : {value, -value}) {
+    const std::string text = error_text<InputError>([&] { (void)ExpressionField("y").edge_length({0, y}); });
+    CHECK(mentions(text, std::string("is nan at x = 0, y = nan;")));
+  }
 }
 
 TEST_CASE("numbers are read alike in every locale") {
