@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <type_traits>
 
 #include "app/commands.hpp"
 #include "base/standard_streams.hpp"
 #include "cli/values.hpp"
+#include "driftmesh/error.hpp"
 #include "pslg/generators.hpp"
 #include "pslg/poly_file.hpp"
 
@@ -31,6 +34,17 @@ cli::Option parameter(const std::string& name, Value& value, const char* what) {
             .take = cli::into(value)};
 }
 
+/// A file without an extension may have any name, and so may a device or a pipe.
+void require_poly(const std::string& output) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  const std::string extension = fs::path(output).extension().string();
+  if (extension.empty() || extension == ".poly" || fs::is_other(fs::status(output, ignored))) return;
+  throw InputError({output}, "has the extension '" + extension + "'",
+                   "a generated domain is written as .poly alone; driftmesh mesh writes meshes, and driftmesh plot "
+                   "pictures");
+}
+
 void report(const Pslg& pslg, const std::string& file) {
   print(fmt::format("{}: {} points, {} segments, {} holes\n", file, pslg.points.size(), pslg.segments.size(),
                     pslg.holes.size()));
@@ -52,6 +66,7 @@ cli::Command kind(const std::string& name, const std::string& what, Pslg (*make)
                              .completes = cli::Option::Completes::kFile,
                              .take = cli::into(request->output)});
   command.run = [request, make](cli::Call&) {
+    require_poly(request->output);
     const Pslg pslg = make(request->options);
     write_poly(pslg, request->output);
     report(pslg, request->output);

@@ -9,9 +9,9 @@ namespace driftmesh {
 /// or "-" with an extension that names the format, as in "-.msh". A file with that name is "./-".
 [[nodiscard]] bool is_standard_stream(std::string_view path);
 
-/// Whether `path` is just "-", which leaves the format to the reader or writer.
+/// Whether `path` is just "-" or "/dev/null", which leave the format to the reader or writer.
 [[nodiscard]] inline bool names_no_format(std::string_view path) {
-  return path == "-";
+  return path == "-" || path == "/dev/null";
 }
 
 /// Occupies those of the descriptors 0, 1 and 2 that the process was started without, so that using them fails.

@@ -51,6 +51,9 @@ const MeshFormat* format_named_by(const std::string& path) {
 }  // namespace
 
 const MeshFormat& format_of(const std::string& path) {
+  if (path.empty())
+    throw InputError({"a mesh file"}, "its name is empty",
+                     "give it one with the extension of a format: " + mesh_files_written());
   const MeshFormat* const format = format_named_by(names_no_format(path) ? path + kFormatOfStreams : path);
   const std::string extension = std::filesystem::path(path).extension().string();
   if (format == nullptr)
@@ -75,6 +78,10 @@ const std::string& mesh_files_written() {
 const std::string& whole_mesh_files_written() {
   static const std::string list = list_of_extensions([](const MeshFormat& format) { return format.write != nullptr; });
   return list;
+}
+
+std::string mesh_files_with(bool MeshFormat::*something) {
+  return list_of_extensions(std::mem_fn(something));
 }
 
 const std::string& mesh_files_described() {

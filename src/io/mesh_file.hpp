@@ -13,8 +13,8 @@
 
 namespace driftmesh {
 
-/// The format that the extension of `path` names; that of "-" is .vtu. Error: InputError for an unknown extension, and
-/// for a standard stream where the format means several files.
+/// The format that the extension of `path` names; that of "-" and "/dev/null" is .vtu. Error: InputError for an unknown
+/// extension, and for a standard stream where the format means several files.
 [[nodiscard]] const MeshFormat& format_of(const std::string& path);
 
 /// The extensions of what read_mesh reads, for messages and help: ".vtu, .pvtu, ... or .neigh".
@@ -25,6 +25,9 @@ namespace driftmesh {
 [[nodiscard]] const std::string& whole_mesh_files_written();
 /// The same with what help says of each format: ".vtu (ParaView), ...".
 [[nodiscard]] const std::string& mesh_files_described();
+
+/// The extensions of the formats that have something, a member such as &MeshFormat::is_grid: ".14, .grd or .gr3".
+[[nodiscard]] std::string mesh_files_with(bool MeshFormat::*something);
 
 /// Whether the extension is that of a mesh and not of a domain as well, as .poly and .node are.
 [[nodiscard]] bool is_mesh_file(const std::string& path);

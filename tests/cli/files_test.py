@@ -125,6 +125,9 @@ class NothingReadIsOverwritten(Files):
         self.succeed("mesh", "square.poly", "--json", "/dev/null", "--area", "0.5", "-o", "a.vtu")
         (self.folder / "b.vtu").symlink_to("/dev/null")
         self.succeed("mesh", "square.poly", "--json", "/dev/null", "-o", "b.vtu")
+        self.succeed("mesh", "square.poly", "-o", "/dev/null", "--plot", "/dev/null", "--json", "/dev/null")
+        self.succeed("mesh", "square.poly", "-n", "3", "-o", "/dev/null")
+        self.succeed("generate", "pipe", "-o", "/dev/null")
 
 
 class TogetherOrNotAtAll(Files):
@@ -402,7 +405,7 @@ class Contradictions(Cli):
             for call in (("mesh", "square.poly", "-o", "m.14"), ("mesh", "square.poly", "-n", "3", "-o", "m.14"), ("convert", "m.vtu", "m.14")):
                 result = self.refuse(*call, option, value, says=["has no ", what])
                 self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
-        self.refuse("mesh", "square.poly", "--open-boundary", "9", says=["1, 2, 3, 4"])
+        self.refuse("mesh", "square.poly", "--open-boundary", "9", "-o", "m.14", says=["1, 2, 3, 4"])
         self.assertFalse((self.folder / "m.14").exists())
         self.succeed("mesh", "square.poly", "--open-boundary", "2,3", "--marker-name", "4=wall", "-o", "m.14")
         self.succeed("convert", "m.vtu", "m.14", "--open-boundary", "2,3", "--marker-name", "4=wall")
@@ -417,6 +420,31 @@ class Contradictions(Cli):
             said = self.run_program("check", wrong).stderr
             for extension in known:
                 self.assertIn(extension, said)
+
+    def test_options_of_other_formats(self):
+        self.write("square.poly", SQUARE)
+        self.succeed("mesh", "square.poly", "-o", "m.vtu")
+        for option, formats in ((("--ascii",), ".msh"), (("--open-boundary", "2"), ".14, .grd or .gr3"), (("--open-from", "5"), ".14, .grd or .gr3"),
+                                (("--ghost-layer",), ".pvtu")):
+            for outputs in ((), ("-o", "x.vtu"), ("-o", "x.vtu", "-o", "x.su2")):
+                self.refuse("mesh", "square.poly", *outputs, *option, code=2, says=[f"{option[0]} is about {formats}", "--output"])
+            if option[0] != "--ghost-layer":
+                self.refuse("convert", "m.vtu", "x.su2", *option, code=2, says=[f"{option[0]} is about {formats}", "x.su2"])
+        self.assertFalse((self.folder / "x.vtu").exists() or (self.folder / "x.su2").exists())
+
+    def test_domains_are_generated_as_poly_alone(self):
+        for name, extension in (("x.geojson", ".geojson"), ("-.vtu", ".vtu")):
+            self.refuse("generate", "pipe", "-o", name, says=[f"{name}: has the extension '{extension}'", ".poly", "driftmesh mesh"])
+        self.assertEqual(list(self.folder.iterdir()), [])
+        for name in ("x.poly", "x"):
+            self.succeed("generate", "pipe", "-o", name)
+        self.assertIn("\n", self.succeed("generate", "pipe", "-o", "-"))
+
+    def test_empty_names(self):
+        self.write("square.poly", SQUARE)
+        self.refuse("mesh", "square.poly", "-o", "", code=2, says=["--output is empty"])
+        self.write("run.yaml", "input: square.poly\noutput: ['']\n")
+        self.refuse("mesh", "--config", "run.yaml", says=["run.yaml:2:10", "is empty"])
 
     def test_a_run_that_writes_nothing_says_so(self):
         self.write("square.poly", SQUARE)
