@@ -156,6 +156,7 @@ int run_check(CheckOptions& options) {
     options.bounds.apply(request);
     request.input.file = options.input;
     job::check(request, job::kOnePiece);
+    job::check_given(request, options.bounds.names());
   });
   options.verify.plain = request.bounds;
   try {

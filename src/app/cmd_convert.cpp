@@ -80,7 +80,21 @@ std::vector<std::string> words_of_orders() {
   return words;
 }
 
+/// An option of some formats needs a file of one of them.
+void require_served(const ConvertOptions& options) {
+  const MeshFormat& format = format_of(options.output);
+  const auto require_format = [&](bool asked, const std::string& option, bool MeshFormat::*something) {
+    if (asked && !(format.*something))
+      throw cli::UsageError(option + " is about " + mesh_files_with(something) + ", but OUTPUT is '" + options.output +
+                            "'; give it such a name, or remove " + option);
+  };
+  require_format(options.writing.ascii, "--ascii", &MeshFormat::has_text);
+  require_format(!options.writing.open_boundary.empty(), "--open-boundary", &MeshFormat::is_grid);
+  require_format(options.writing.open_from > 0, "--open-from", &MeshFormat::is_grid);
+}
+
 void run_convert(const ConvertOptions& options) {
+  require_served(options);
   FileRegistry files;
   register_mesh_input(files, options.input, "INPUT", options.reading);
   register_mesh_output(files, options.output, "OUTPUT");

@@ -39,6 +39,7 @@ job::Request request_of(const GivenKeys& given) {
   if (request.decomposition.subdomains == 0)
     throw job::KeyError("decomposition.subdomains", "is 0", "it must be at least 1");
   job::check(request, job::kSubdomains);
+  job::check_given(request, given.names());
   return request;
 }
 

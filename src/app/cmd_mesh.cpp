@@ -39,8 +39,7 @@ void imply_rounds(job::Request& request, const std::set<std::string>& given, boo
 }
 
 std::set<std::string> given_keys(const GivenKeys& given, const config::SourcePlaces& places) {
-  std::set<std::string> names;
-  for (const GivenKeys::Item& item : given.items) names.insert(item.key->name);
+  std::set<std::string> names = given.names();
   for (const auto& [name, place] : places) names.insert(name);
   return names;
 }
@@ -67,6 +66,7 @@ int run(const MeshCommand& command) {
     const std::set<std::string> given = given_keys(command.given, settings.places);
     if (!request.run.resume.empty()) request = job::resumed_request(request, given);
     imply_rounds(request, given, command.reproducible);
+    job::check_given(request, given);
     const job::Request::Input& input = request.input;
     if (input.file.empty() && input.generator.empty() && input.parameters.empty() && input.contour.empty())
       throw cli::UsageError("INPUT is missing");

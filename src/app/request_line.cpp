@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <sstream>
 #include <utility>
 
+#include "cli/values.hpp"
 #include "job/files.hpp"
 #include "job/keys.hpp"
 
@@ -20,15 +20,20 @@ using Table = std::map<std::string, std::string>;
 
 std::vector<double> numbers_of(const Key& key, const std::string& text) {
   std::vector<double> numbers;
-  std::istringstream words(text);
-  for (std::string word; std::getline(words, word, ',');) numbers.push_back(job::read_value(key, word).as<double>());
+  if (text.empty()) return numbers;
+  for (const std::string& word : cli::separated(text)) numbers.push_back(job::read_value(key, word).as<double>());
   return numbers;
+}
+
+void require_text(const Key& key, const std::string& text) {
+  if (text.empty()) throw KeyError(key.name, "is empty", "give it a value, or leave it out");
 }
 
 /// The value of a key after one more word, given its `old` value.
 Value given_value(const Key& key, const std::string& text, const Value& old) {
   if (key.kind == Kind::kNumbers) return numbers_of(key, text);
   if (key.kind == Kind::kOutputs) {
+    require_text(key, text);
     auto files = old.as<std::vector<std::string>>();
     files.push_back(text);
     return files;
@@ -45,7 +50,7 @@ Value given_value(const Key& key, const std::string& text, const Value& old) {
     return table;
   }
   if (key.kind == Kind::kFlag) return !key.option.starts_with("no-");
-  if (text.empty()) throw KeyError(key.name, "is empty", "give it a value, or leave it out");
+  require_text(key, text);
   return job::read_value(key, text);
 }
 
@@ -88,6 +93,12 @@ std::string shown_default(const Key& key) {
 }
 
 }  // namespace
+
+std::set<std::string> GivenKeys::names() const {
+  std::set<std::string> names;
+  for (const Item& item : items) names.insert(item.key->name);
+  return names;
+}
 
 void GivenKeys::apply(job::Request& request) const {
   std::set<const Key*> seen;

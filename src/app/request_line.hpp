@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,9 @@ struct GivenKeys {
     std::string text;  ///< "" for a flag that has no value
   };
   std::vector<Item> items;
+
+  /// The names of the keys.
+  [[nodiscard]] std::set<std::string> names() const;
 
   /// Stores these values in `request`. Lists and tables from a command line replace those of the request. Throws
   /// KeyError.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "driftmesh/error.hpp"
 #include "gis/coordinates.hpp"
 #include "gis/projection.hpp"
+#include "io/mesh_file.hpp"
 #include "io/other_coordinates.hpp"
 #include "job/contour.hpp"
 #include "job/domain.hpp"
@@ -101,6 +103,9 @@ void check_rasters(const Request& request) {
       throw KeyError("input.rasters", "has the name '" + name + "'",
                      "a name has letters, digits and underscores, and no other meaning in expressions");
     if (file.empty()) throw KeyError("input.rasters", "names no file for '" + name + "'", "write NAME=FILE");
+    if (std::ranges::count(files_in(file), "") > 0)
+      throw KeyError("input.rasters", "has a comma without a file beside it in '" + file + "', for '" + name + "'",
+                     "remove the comma, or name a file");
   }
   const std::string& depth = request.output.depth;
   if (!depth.empty() && !request.input.rasters.contains(depth))
@@ -111,17 +116,28 @@ void check_rasters(const Request& request) {
           "input.rasters", "serves {sizing.size} and {output.depth}, but neither is given", "give one of them");
 }
 
+/// What has no meaning without a time step; `is_set`: whether a key has a value that somebody chose.
+template <class IsSet>
+void check_served_step(const IsSet& is_set) {
+  for (const char* key : {"sizing.courant", "sizing.courant-speed", "sizing.courant-length"})
+    require(!is_set(key), key, "serves {sizing.courant-step}, which is not given", "give a time step, or remove it");
+}
+
 void check_step(const Request::Sizing& sizing, const std::string& depth) {
-  const Request::Sizing standard;
   require(sizing.courant_step == 0 || !depth.empty(), "sizing.courant-step", "needs depths",
           "name their raster with {output.depth}");
   if (sizing.courant_step > 0) return;
-  const auto serves_step = [](bool holds, const char* key) {
-    require(holds, key, "serves {sizing.courant-step}, which is not given", "give a time step, or remove it");
-  };
-  serves_step(sizing.courant == standard.courant, "sizing.courant");
-  serves_step(sizing.courant_speed == standard.courant_speed, "sizing.courant-speed");
-  serves_step(sizing.courant_length == standard.courant_length, "sizing.courant-length");
+  Request asked;
+  asked.sizing = sizing;
+  check_served_step([&](const char* name) {
+    const Key& key = *find_key(name).key;
+    return key.load(asked) != key.standard;
+  });
+}
+
+void check_every(bool is_set, const Request::Run& run) {
+  require(!is_set || !run.checkpoint.empty(), "run.every", "is the time between checkpoints, but none are asked for",
+          "name their file with {run.checkpoint}");
 }
 
 void check_sizes(const Request::Bounds& bounds, const Request::Sizing& sizing) {
@@ -187,15 +203,12 @@ void check_rounds(const Request& request, PlaceKind place) {
 }
 
 void check_checkpoint(const Request::Run& run) {
-  const Request::Run standard;
   require(run.checkpoint.empty() || run.method == Method::kRounds, "run.checkpoint",
           "needs a run in rounds, but another method is asked for", "give {run.method} rounds");
   require(run.resume.empty() || run.method == Method::kRounds, "run.resume",
           "needs a run in rounds, but another method is asked for", "give {run.method} rounds");
   require(!is_standard_stream(run.checkpoint), "run.checkpoint", "is standard output, which keeps nothing",
           "name a file");
-  require(run.every == standard.every || !run.checkpoint.empty(), "run.every",
-          "is the time between checkpoints, but none are asked for", "name their file with {run.checkpoint}");
 }
 
 void check_method(const Request& request) {
@@ -231,8 +244,23 @@ void check_pdr(const Request& request, PlaceKind place) {
           "remove {run.threads}, {run.sleep} and {run.scratch}");
 }
 
+/// An option of some formats needs a file of one of them.
+void check_format_options(const Request::Output& output) {
+  const auto require_format = [&](bool asked, const char* key, bool MeshFormat::*something) {
+    const auto has_it = [&](const std::string& file) { return format_of(file).*something; };
+    if (!asked || std::ranges::any_of(output.meshes, has_it)) return;
+    throw KeyError(key, "is about " + mesh_files_with(something) + ", but no such file is written",
+                   "name one with {output.meshes}, or remove it");
+  };
+  require_format(output.ascii, "output.ascii", &MeshFormat::has_text);
+  require_format(output.ghost_layer, "output.ghost-layer", &MeshFormat::has_ghosts);
+  require_format(!output.open_boundary.empty(), "output.open-boundary", &MeshFormat::is_grid);
+  require_format(output.open_from > 0, "output.open-from", &MeshFormat::is_grid);
+}
+
 void check_output(const Request& request) {
   const Request::Output& output = request.output;
+  check_format_options(output);
   require(output.session.empty() || request.run.method == Method::kRounds, "output.session",
           "needs a run in rounds, but another method is asked for", "give {run.method} rounds");
   require(!is_standard_stream(output.session), "output.session", "is standard output, which keeps nothing",
@@ -282,6 +310,7 @@ PlaceKind place_of(const Request& request, EntryPoint entry_point, bool launched
 
 void check(const Request& request, PlaceKind place, const balancer::PolicyMaker& policies) {
   for (const Key& key : keys()) check_value(key, key.load(request));
+  check_every(request.run.every != Request::Run{}.every, request.run);  // before the place: checkpoints change it
   check_places(request, place);
   check_input(request.input);
   static_cast<void>(names_of(request.input));
@@ -301,6 +330,12 @@ void check(const Request& request, PlaceKind place, const balancer::PolicyMaker&
     check_cluster(request);
     check_ranks(request, place, ranks_of(cluster_of(request)));
   }
+}
+
+void check_given(const Request& request, const std::set<std::string>& given) {
+  const auto is_given = [&](const char* key) { return given.contains(key); };
+  if (request.sizing.courant_step == 0) check_served_step(is_given);
+  check_every(is_given("run.every"), request.run);
 }
 
 void check_alone(const Request& request) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,10 @@ namespace driftmesh::job {
 /// would be ignored there is rejected unless it has its default value. Files are not examined; parameters of the policy
 /// are, if `policies` is given.
 void check(const Request& request, PlaceKind place, const balancer::PolicyMaker& policies = nullptr);
+
+/// Throws KeyError if one of the keys in `given`, which somebody has set, does nothing with its value, though that may
+/// be the default.
+void check_given(const Request& request, const std::set<std::string>& given);
 
 /// Whether settings suit a process that knows of no other. Throws KeyError.
 void check_alone(const Request& request);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <sstream>
 #include <utility>
 
 #include "base/nearest_name.hpp"
@@ -105,9 +104,10 @@ bool names_file(const KeyInfo& key, const std::string& text) {
 std::vector<std::string> files_in(const std::string& text) {
   if (std::error_code ignored; std::filesystem::exists(text, ignored)) return {text};
   std::vector<std::string> files;
-  std::istringstream names(text);
-  for (std::string name; std::getline(names, name, ',');)
-    if (!name.empty()) files.push_back(name);
+  for (std::size_t begin = 0, end = 0; end != std::string::npos && !text.empty(); begin = end + 1) {
+    end = text.find(',', begin);
+    files.push_back(text.substr(begin, end - begin));
+  }
   return files;
 }
 
@@ -124,9 +124,9 @@ std::string with_files(const KeyInfo& key, const std::string& text,
   if (!key.of_files || files_in(whole).size() == 1) return whole;
   std::string files;
   for (const std::string& file : files_in(text)) {
-    if (!files.empty()) files += ',';
-    files += moved(file);
+    files += (file.empty() ? file : moved(file)) + ',';
   }
+  files.pop_back();
   return files;
 }
 

@@ -121,6 +121,10 @@ class Checkpoints(program.Cli):
         self.refuse("mesh", "--config", "settings.yaml", code=1, says=["settings.yaml:2", "is 3"])
         self.refuse("mesh", *REQUEST, "--checkpoint", "a", "--method", "coupled", code=2, says=["--method", "--checkpoint"])
         self.refuse("mesh", *REQUEST, "--every", "5s", "--reproducible", code=2, says=["--every", "--checkpoint"])
+        for time in ("10", "10m"):  # which is the default
+            self.refuse("mesh", *REQUEST, "--every", time, code=2, says=["--every", "--checkpoint"])
+        self.write("every.yaml", "every: 10m\n")
+        self.refuse("mesh", *REQUEST, "--config", "every.yaml", code=1, says=["every.yaml:1:", "checkpoints"])
         self.refuse("mesh", *REQUEST, "--reproducible", "--give-up", "5m", code=2, says=["--give-up", "alone"])
         self.refuse("mesh", *REQUEST, "--checkpoint", "-", code=2, says=["--checkpoint is standard output"])
         self.refuse("mesh", *REQUEST, "--checkpoint", "none/a", code=1, says=["none/a"])

@@ -154,11 +154,12 @@ class Degrees(Cli):
         self.assertEqual((self.folder / "meters.14").read_text().splitlines()[0], "driftmesh UTM zone 18N from lonlat")
 
     def test_all_formats_can_have_degrees_and_say_so(self):
-        common = ["mesh", "bay.geojson", "--area", "1M", "--crs", "lonlat", "--open-boundary", "3"]
+        common = ["mesh", "bay.geojson", "--area", "1M", "--crs", "lonlat"]
+        grids = [*common, "--open-boundary", "3"]
         outputs = ["m.vtu", "m.h5", "m.msh", "m.su2", "m.14"]
-        self.succeed(*common, *(word for output in outputs for word in ("-o", output)))
+        self.succeed(*grids, *(word for output in outputs for word in ("-o", output)))
         self.succeed(*common, "-n", "4", "-o", "p.pvtu", "-o", "p.vtu")
-        self.assertEqual(self.on_ranks(2, *common, "-n", "6", "-o", "r.pvtu", "-o", "r.h5", "-o", "r.14").returncode, 0)
+        self.assertEqual(self.on_ranks(2, *grids, "-n", "6", "-o", "r.pvtu", "-o", "r.h5", "-o", "r.14").returncode, 0)
         self.assertTrue((self.folder / "r.14").read_text().startswith("driftmesh lonlat from UTM zone 18N\n"))
         for file in [*outputs, "p.pvtu", "p.vtu", "r.pvtu", "r.h5"]:
             with self.subTest(file=file):

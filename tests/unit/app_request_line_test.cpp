@@ -62,6 +62,7 @@ TEST_CASE("a command line overrides a file, and its lists replace others") {
 TEST_CASE("errors name the option, or the place in the file") {
   CHECK(refusal(given({{"area", "many"}})) == "--area is 'many'; give a number, as in 20, 1.5e3 or 5k");
   CHECK(refusal(given({{"speeds", "1,-2"}})) == "--speeds is -2; it must be above 0");
+  CHECK(refusal(given({{"speeds", "1,"}})) == "--speeds is ''; give a number, as in 20, 1.5e3 or 5k");
   CHECK(refusal(given({{"balance-with", "method"}})) == "--balance-with is 'method'; write NAME=VALUE");
   CHECK(refusal({}, {{"bounds.angle", "run.yaml:3:8"}}) == "run.yaml:3:8: 'bounds.angle' is too steep; lower it");
   CHECK(refusal(given({{"angle", "20"}}), {{"bounds.angle", "run.yaml:3:8"}}) == "--angle is too steep; lower it");
@@ -84,7 +85,7 @@ TEST_CASE("the command line that repeats a run has everything that is not a defa
 }
 
 TEST_CASE("an empty value, such as that of an unset shell variable, is rejected") {
-  for (const char* option : {"size", "size-mesh", "decomposition", "plot", "json"}) {
+  for (const char* option : {"size", "size-mesh", "decomposition", "plot", "json", "output"}) {
     CAPTURE(option);
     CHECK(refusal(given({{option, ""}})) == "--" + std::string(option) + " is empty; give it a value, or leave it out");
   }

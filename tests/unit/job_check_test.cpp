@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <functional>
+#include <set>
 #include <string>
 
 #include "job/check.hpp"
@@ -97,6 +98,63 @@ TEST_CASE("what a run in rounds cannot have is rejected, and so is what only it 
   CHECK(refused_in_rounds(job::kSubdomains, [](Request& r) { r.run.every = 5; }) == "run.every");
   CHECK(refused(job::kSubdomains, [](Request& r) { r.run.checkpoint = "a.kept"; }) == "run.checkpoint");
   CHECK(refused(job::kSubdomains, [](Request& r) { r.run.resume = "a.kept"; }) == "run.resume");
+}
+
+TEST_CASE("options of some formats need a file of one of them") {
+  const auto refused_with = [](const std::string& file, const std::function<void(Request::Output&)>& change) {
+    return refused(kOnePiece, [&](Request& r) {
+      if (!file.empty()) r.output.meshes = {"a.su2", file};
+      change(r.output);
+    });
+  };
+  const auto ascii = [](Request::Output& output) { output.ascii = true; };
+  const auto ghosts = [](Request::Output& output) { output.ghost_layer = true; };
+  const auto open = [](Request::Output& output) { output.open_boundary = {2}; };
+  const auto long_ones = [](Request::Output& output) { output.open_from = 5; };
+  for (const char* file : {"", "b.vtu"}) {
+    CHECK(refused_with(file, ascii) == "output.ascii");
+    CHECK(refused_with(file, ghosts) == "output.ghost-layer");
+    CHECK(refused_with(file, open) == "output.open-boundary");
+    CHECK(refused_with(file, long_ones) == "output.open-from");
+  }
+  CHECK(refused_with("b.msh", ascii).empty());
+  CHECK(refused_with("b.pvtu", ghosts).empty());
+  for (const char* file : {"b.14", "b.grd", "b.gr3"}) {
+    CHECK(refused_with(file, open).empty());
+    CHECK(refused_with(file, long_ones).empty());
+  }
+}
+
+TEST_CASE("a list of rasters names a file on both sides of each comma") {
+  const auto refused_list = [](const char* files) {
+    return refused(kOnePiece, [&](Request& r) {
+      r.input.rasters = {{"d", files}};
+      r.sizing.expression = "d";
+    });
+  };
+  CHECK(refused_list("a.asc,b.asc").empty());
+  for (const char* files : {"a.asc,", ",a.asc", "a.asc,,b.asc", ","}) CHECK(refused_list(files) == "input.rasters");
+}
+
+TEST_CASE("what somebody has set must serve, even where it is the default") {
+  const auto refused_given = [](const std::set<std::string>& given, const std::function<void(Request&)>& change = {}) {
+    Request request;
+    if (change) change(request);
+    try {
+      check_given(request, given);
+    } catch (const KeyError& error) {
+      return error.key();
+    }
+    return std::string();
+  };
+  CHECK(refused_given({}).empty());
+  for (const std::string key : {"sizing.courant", "sizing.courant-speed", "sizing.courant-length"}) {
+    CHECK(refused_given({key}) == key);
+    CHECK(refused_given({key}, [](Request& r) { r.sizing.courant_step = 5; }).empty());
+  }
+  CHECK(refused_given({"run.every"}) == "run.every");
+  CHECK(refused_given({"run.every"}, [](Request& r) { r.run.checkpoint = "a.kept"; }).empty());
+  CHECK(refused(kOnePiece, [](Request& r) { r.run.every = 5; }) == "run.every");
 }
 
 TEST_CASE("the place of a mesh follows from the entry point and the request") {
