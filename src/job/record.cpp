@@ -22,7 +22,9 @@ std::string sizing_words(const Request::Sizing& sizing) {
   if (sizing.gradation > 0) add("gradation " + shortest_text(sizing.gradation));
   if (sizing.shortest > 0) add("at least " + shortest_text(sizing.shortest));
   if (sizing.longest > 0) add("at most " + shortest_text(sizing.longest));
-  if (sizing.courant_step > 0) add("but for a time step of " + shortest_text(sizing.courant_step) + " s");
+  if (sizing.courant_step > 0)
+    add((words.empty() ? "as a time step of " : "but for a time step of ") + shortest_text(sizing.courant_step) + " s" +
+        (words.empty() ? " allows" : ""));
   return words;
 }
 

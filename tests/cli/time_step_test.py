@@ -128,6 +128,7 @@ class TimeSteps(Cli):
         self.draw(300)
         asked = ["--raster", "depth=depth.asc", "--depth", "depth", "--courant-step", 60]
         said = self.succeed("mesh", "coast.poly", *asked, "-o", "coast.vtu")
+        self.assertIn("\nedge length  as a time step of 60 s allows\n", said)
         self.assertRegex(said, r"at short segments of the input: \S+ s at \(\S+, \S+\)")
         self.assertRegex(said, r"a coarser outline: --simplify \d+")
         (self.folder / "coast.vtu").unlink()
@@ -185,8 +186,13 @@ class TimeSteps(Cli):
         self.draw(7)
         raster = ["--raster", "depth=depth.asc"]
         self.refuse("mesh", "coast.poly", "--courant-step", 5, "-o", "a.vtu", code=2, says=["--courant-step", "--depth"])
-        self.refuse("mesh", "coast.poly", *raster, "--depth", "depth", "--courant", 0.7, "-o", "a.vtu", code=2,
-                    says=["--courant", "--courant-step"])
+        for bound in 0.5, 0.7:  # the default and another one
+            self.refuse("mesh", "coast.poly", *raster, "--depth", "depth", "--courant", bound, "-o", "a.vtu", code=2,
+                        says=["--courant", "--courant-step"])
+        for call in ("check", "coast.vtu", "coast.poly"), ("decompose", "coast.poly", "-n", 2):
+            self.refuse(*call, "--courant", 0.5, code=2, says=["--courant", "--courant-step"])
+        self.refuse("mesh", "coast.poly", "--raster", "depth=depth.asc,", "--depth", "depth", "-o", "a.vtu", code=2,
+                    says=["--raster", "comma", "'depth.asc,'"])
         self.refuse("mesh", "coast.poly", *raster, "--depth", "depth", "--courant-step", 5, "--courant", 0, "-o", "a.vtu",
                     code=2, says=["--courant"])
 
