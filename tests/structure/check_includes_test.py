@@ -86,7 +86,7 @@ class BrokenProject(unittest.TestCase):
     def test_messages_in_the_mesher(self):
         self.include("src/mesh/cavity.hpp", "protocol/messages.hpp")
         self.expect("src/mesh/cavity.hpp:1: includes protocol/messages.hpp (protocol), which the DEPENDS of mesh",
-                    "src/mesh/cavity.hpp -> protocol/messages.hpp, which mesh does not stand on")
+                    "reaches src/mesh/refiner.hpp -> src/mesh/improver.hpp -> src/mesh/cavity.hpp -> protocol/messages.hpp, which mesh does not stand on")
 
     def test_messages_in_the_mesher_by_way_of_a_box_below(self):
         self.include("src/base/narrow.hpp", "protocol/messages.hpp")
