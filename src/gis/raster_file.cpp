@@ -177,7 +177,7 @@ class GdalRaster final : public RasterRows {
   OfflineGdal offline_;
   OwnedByUs<GDALDatasetH> data_;
   GDALRasterBandH band_ = nullptr;
-  GDALRasterBandH mask_ = nullptr;  // of the file or of its transparency; null: none
+  GDALRasterBandH mask_ = nullptr;  // null: nothing is hidden
   RasterFrame frame_;
   bool upside_down_ = false;
   std::optional<double> none_;

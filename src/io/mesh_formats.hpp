@@ -21,7 +21,7 @@ struct MeshFormat {
   std::vector<std::string_view> extensions;  ///< the first stands for the format
   std::string_view remark{};                 ///< for help: who reads it, or what is special
   MeshParts keeps = 0;                       ///< what is written, and comes back when it is read
-  bool is_grid = false;     ///< of ADCIRC: open boundaries, and longitudes and latitudes if the domain has them
+  bool is_grid = false;     ///< open boundaries as in ADCIRC, and longitudes and latitudes if the domain has them
   bool has_text = false;    ///< WriteOptions::ascii chooses text instead of binary data
   bool has_ghosts = false;  ///< pieces may have triangles of their neighbors
 

@@ -25,22 +25,21 @@ double wanted_triangles(const Request::Bounds& bounds, std::int32_t ranks) {
   return bounds.triangles > 0 ? bounds.triangles : bounds.triangles_per_rank * ranks;
 }
 
-QualityBounds bounds_of(const Request& request, const Domain& domain, const Triangulation& mesh, std::int32_t ranks) {
+QualityBounds bounds_of(const Request& request, const Domain& domain, const Triangulation& mesh, double wanted) {
   QualityBounds bounds{.min_angle = request.bounds.angle,
                        .plain = request.bounds,
                        .size = domain.size.get(),
                        .step = domain.step.get(),
                        .rules = domain.rules};
   if (bounds.plain.region_areas) bounds.region_max_area = areas_by_region(domain.pslg);
-  if (const double count = wanted_triangles(request.bounds, ranks); count > 0)
-    bounds.plain.area = area_for_count(mesh, bounds, count);
+  if (wanted > 0) bounds.plain.area = area_for_count(mesh, bounds, wanted);
   return bounds;
 }
 
 /// Where what is asked for besides takes more triangles than are wanted.
 std::vector<std::string> count_warnings(double wanted, double forecast) {
   constexpr double kMuch = 1.1;
-  if (wanted == 0 || forecast <= kMuch * wanted) return {};
+  if (forecast <= kMuch * wanted) return {};
   return {
       formatted("{} triangles are wanted, but angles, sizes and the details of the input take about {}; allow "
                 "smaller angles, ask for greater lengths, or have details removed (simplify)",
@@ -90,6 +89,7 @@ std::vector<std::string> narrow_warnings(const Triangulation& mesh, const Qualit
 Triangulated triangulate_domain(const Request& request, const Domain& domain, std::int32_t ranks, Cut cut,
                                 Watch& watch) {
   Triangulated result;
+  const double wanted = wanted_triangles(request.bounds, ranks);
   timed(watch, "triangulate", [&] {
     CarveReport carved;
     result.mesh = triangulate(domain.pslg, &carved);
@@ -99,7 +99,7 @@ Triangulated triangulate_domain(const Request& request, const Domain& domain, st
     else
       result.holes = std::move(carved.holes);
     warn(request, background_warnings(domain, result.mesh), watch);
-    result.bounds = bounds_of(request, domain, result.mesh, ranks);
+    result.bounds = bounds_of(request, domain, result.mesh, wanted);
     const auto count = [&] { result.forecast = forecast_triangles(result.mesh, result.bounds); };
     // Where a bound on size says where their triangles will be. Depends on neither the machine nor the number of
     // threads.
@@ -109,18 +109,15 @@ Triangulated triangulate_domain(const Request& request, const Domain& domain, st
     const std::size_t before = result.mesh.live_vertices();
     result.acute_corners =
         prepare_corners(result.mesh, result.cut ? CornerUse{} : CornerUse{request.bounds.angle, false, domain.rules});
-    if (result.acute_corners > 0 && wanted_triangles(request.bounds, ranks) > 0)
-      result.bounds = bounds_of(request, domain, result.mesh, ranks);
+    if (result.acute_corners > 0 && wanted > 0) result.bounds = bounds_of(request, domain, result.mesh, wanted);
     if (std::int64_t& most = result.bounds.rules.most_points; most != INT64_MAX)
       most -= static_cast<std::int64_t>(result.mesh.live_vertices() - before);
-    double tried = 0;
-    if (const double wanted = wanted_triangles(request.bounds, ranks); wanted > 0) {
-      const TriedArea found = try_area_for_count(result.mesh, result.bounds, wanted);
-      result.bounds.plain.area = found.area;
-      tried = found.triangles;
+    if (!if_large || result.acute_corners > 0) count();
+    if (wanted > 0) {
+      const TriedArea tried = try_area_for_count(result.mesh, result.bounds, wanted, result.forecast);
+      warn(request, count_warnings(wanted, tried.triangles), watch);
+      if (std::exchange(result.bounds.plain.area, tried.area) != tried.area) count();
     }
-    if (!if_large || result.acute_corners > 0 || tried > 0) count();
-    warn(request, count_warnings(wanted_triangles(request.bounds, ranks), tried > 0 ? tried : result.forecast), watch);
     warn(request, narrow_warnings(result.mesh, result.bounds, result.forecast), watch);
   });
   return result;

@@ -15,26 +15,24 @@ struct Look {
   double excess = 0;  // how many times too many triangles there are, as a logarithm: it falls as the area grows
 };
 
-/// The nearest to no excess of some looks, the first one at `area`; the last one if it is `close`. Areas are at most
+/// The nearest to no excess of some looks, beginning with `first`; the last one if it is `close`. Areas are at most
 /// `domain`.
 template <class Excess>
-Look settle(const Excess& excess, double area, double domain, double close, int looks) {
-  constexpr double kBeyond = 1.2;  // steps this much too far bracket what is sought
-  Look best, many, few;            // an area of 0: not seen
-  for (int look = 0; look < looks; ++look) {
-    const Look here{area, excess(area)};
-    if (look == 0 || std::fabs(here.excess) < std::fabs(best.excess)) best = here;
+Look settle(const Excess& excess, const Look& first, double domain, double close, int looks) {
+  constexpr double kBeyond = 1.2;              // steps this much too far bracket what is sought
+  Look here = first, best = first, many, few;  // an area of 0: not seen
+  for (int look = 0;; ++look) {
+    if (std::fabs(here.excess) < std::fabs(best.excess)) best = here;
     (here.excess > 0 ? many : few) = here;
-    if (std::fabs(best.excess) <= close || many.area >= domain) break;
-    if (many.area == 0 || few.area == 0) {
-      area = std::min(area * std::exp(kBeyond * here.excess), domain);
-    } else {
+    if (std::fabs(best.excess) <= close || many.area >= domain || look + 1 == looks) return best;
+    double area = std::min(here.area * std::exp(kBeyond * here.excess), domain);
+    if (many.area > 0 && few.area > 0) {
       // Regula falsi in logarithms; every other step halves, since the excess falls ever slower.
       const double part = look % 2 == 0 ? many.excess / (many.excess - few.excess) : 0.5;
       area = many.area * std::pow(few.area / many.area, part);
     }
+    here = {area, excess(area)};
   }
-  return best;
 }
 
 double triangles_made(Triangulation mesh, const QualityBounds& bounds, double count) {
@@ -56,20 +54,21 @@ double area_for_count(const Triangulation& mesh, const QualityBounds& bounds, do
     asked.plain.area = area;
     return std::log(forecast_triangles(mesh, asked) / count);
   };
-  return std::fabs(excess(share)) <= kAgrees ? share
-                                             : settle(excess, std::min(share, domain), domain, kClose, kMostLooks).area;
+  const Look first{std::min(share, domain), excess(share)};
+  return std::fabs(first.excess) <= kAgrees ? share : settle(excess, first, domain, kClose, kMostLooks).area;
 }
 
-TriedArea try_area_for_count(const Triangulation& mesh, const QualityBounds& bounds, double count) {
+TriedArea try_area_for_count(const Triangulation& mesh, const QualityBounds& bounds, double count, double forecast) {
   constexpr double kMost = 100'000, kTooMany = 2, kClose = 0.05;
   constexpr int kTrials = 8;
-  if (count > kMost || forecast_triangles(mesh, bounds) > kTooMany * count) return {bounds.plain.area};
+  if (count > kMost || forecast > kTooMany * count) return {bounds.plain.area, forecast};
   const auto excess = [&](double area) {
     QualityBounds tried = bounds;
     tried.plain.area = area;
     return std::log(triangles_made(mesh, tried, count) / count);
   };
-  const Look found = settle(excess, bounds.plain.area, area_of(mesh), kClose, kTrials);
+  const Look first{bounds.plain.area, excess(bounds.plain.area)};
+  const Look found = settle(excess, first, area_of(mesh), kClose, kTrials);
   return {found.area, std::round(count * std::exp(found.excess))};
 }
 

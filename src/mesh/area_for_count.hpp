@@ -14,14 +14,15 @@ namespace driftmesh {
 /// A bound on area, and how many triangles refinement makes with it.
 struct TriedArea {
   double area = 0;
-  double triangles = 0;  ///< 0: not tried
+  double triangles = 0;  ///< as made for trial, or as forecast if nothing was tried
 };
 
 /// Corrects the bound on area of `bounds`, as area_for_count found it, by trial: until refinement, in one piece, makes
-/// `count` triangles up to 5 percent, the bound is the area of the domain, or eight trials are over, of which the best
-/// counts. Forecasts are that far off where few triangles meet many details. `mesh` has its corners prepared. Nothing
-/// is tried above 100,000 triangles, where it takes long and forecasts agree, and where the forecast is beyond twice
-/// `count`.
-[[nodiscard]] TriedArea try_area_for_count(const Triangulation& mesh, const QualityBounds& bounds, double count);
+/// `count` triangles up to some 5 percent, the bound is the area of the domain, or eight trials are over, of which the
+/// best counts. Forecasts are that far off where few triangles meet many details. `mesh` has its corners prepared, and
+/// `forecast` is how many triangles are expected of it. Nothing is tried above 100,000 triangles, where it takes long
+/// and forecasts agree, and where the forecast is beyond twice `count`.
+[[nodiscard]] TriedArea try_area_for_count(const Triangulation& mesh, const QualityBounds& bounds, double count,
+                                           double forecast);
 
 }  // namespace driftmesh

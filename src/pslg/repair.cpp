@@ -104,7 +104,7 @@ bool spans_plane(const std::vector<Point>& points) {
          std::ranges::any_of(points, [&](const Point& p) { return orient2d(points.front(), *other, p) != 0; });
 }
 
-/// Throws InputError if snapping has left nothing of a domain, whose box was this one, that has an area.
+/// Throws InputError if snapping has left nothing that has an area of a domain whose box was `before`.
 void check_snapped(const Pslg& pslg, const Box& before, const std::string& file, double snap) {
   if (spans_plane(pslg.points)) return;
   throw InputError({file, 0}, formatted("has no area left when all that is at most {} apart is joined", snap),
@@ -272,10 +272,10 @@ RepairReport repair(Pslg& pslg, const std::string& file, const RepairOptions& op
   RepairReport report;
   report.snap = options.snap;
   round_coordinates(pslg, report);
-  const bool has_area = spans_plane(pslg.points);
-  const Box before = Box::of(pslg.points);
+  std::optional<Box> snapped;  // the box of a domain that has an area
+  if (options.snap > 0 && spans_plane(pslg.points)) snapped = Box::of(pslg.points);
   make_planar(pslg, file, options, report);
-  if (has_area && options.snap > 0) check_snapped(pslg, before, file, options.snap);
+  if (snapped) check_snapped(pslg, *snapped, file, options.snap);
   check_spans_plane(pslg, file);
   check_seeds(pslg, file, report);
   return report;

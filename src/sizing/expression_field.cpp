@@ -1,9 +1,8 @@
 #include "sizing/expression_field.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 
+#include "base/formatted.hpp"
 #include "driftmesh/error.hpp"
 #include "sizing/expression.hpp"
 #include "sizing/limited_function.hpp"
@@ -12,10 +11,7 @@ namespace driftmesh {
 namespace {
 
 std::string printed(double value) {
-  if (std::isnan(value)) return "nan";  // whose sign means nothing
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
+  return formatted("{:.17g}", value);
 }
 
 }  // namespace
