@@ -1,27 +1,20 @@
 #include "geojson/geojson.hpp"
 
 #include <doctest/doctest.h>
-#include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <random>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "driftmesh/error.hpp"
 #include "geojson/read_input.hpp"
 #include "geojson/rings_to_pslg.hpp"
-#include "gis/coordinates.hpp"
-#include "gis/geographic_system.hpp"
+#include "geojson_text.hpp"
 #include "gis/projection.hpp"
 #include "gis/transverse_mercator.hpp"
 #include "property/cases.hpp"
-#include "support/error_text.hpp"
 
 using namespace driftmesh;
 using namespace driftmesh::testing;
@@ -39,14 +32,6 @@ double meridian_arc(double latitude) {
   return sum * h / 3;
 }
 
-std::string error_of_text(const std::string& text) {
-  return error_text<InputError>([&] { static_cast<void>(parse_geojson_input("coast.geojson", text)); });
-}
-
-std::string polygon(const std::string& rings, const std::string& properties = "{}") {
-  return R"({"type": "Feature", "properties": )" + properties + R"(, "geometry": {"type": "Polygon", "coordinates": )" +
-         rings + "}}";
-}
 std::string planar(const std::string& features) {
   return R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:32618"}}, "features": [)" +
          features + "]}";
@@ -244,281 +229,6 @@ TEST_CASE(
   CHECK(Projection(Stereographic({5, -90})).plane({77, -90}) == Point{1e7, 1e7});
 }
 
-TEST_CASE("what coordinates are is told and understood") {
-  for (const char* text : {"UTM zone 18N", "UTM zone 18N from lonlat", "lonlat from stereographic at 0 90",
-                           "EPSG:3035 from UTM zone 32N", "EPSG:3035 from UTM zone 32N from lonlat"}) {
-    CAPTURE(text);
-    REQUIRE(coordinates_from(text));
-    CHECK(coordinates_from(text)->text() == text);
-  }
-  for (const char* text : {"", "UTM zone 61N", "lonlat", "from lonlat", "EPSG:x from UTM zone 18N"})
-    CHECK_FALSE(coordinates_from(text));
-  // Codes of the same plane, and of degrees, need nobody else.
-  const Point p{440'000, 4'100'000};
-  CHECK(from_plane("UTM zone 18N", "EPSG:32618", "x")(p) == p);
-  CHECK(from_plane("UTM zone 18N", "EPSG:4326", "x")(p) == from_plane("UTM zone 18N", "lonlat", "x")(p));
-  const Point back = to_plane("UTM zone 18N", "lonlat", "x")(from_plane("UTM zone 18N", "lonlat", "x")(p));
-  CHECK(std::hypot(back.x - p.x, back.y - p.y) < 1e-8);
-}
-
-namespace {
-
-std::string in_system(const std::string& name, const std::string& ring) {
-  return R"({"type": "Polygon", "crs": {"type": "name", "properties": {"name": ")" + name + R"("}}, "coordinates": [)" +
-         ring + "]}";
-}
-
-}  // namespace
-
-TEST_CASE("whatever system of longitudes and latitudes a file names, it is in degrees") {
-  const std::string ring = "[[-70,41],[-69.9,41],[-69.9,41.1],[-70,41.1],[-70,41]]";
-  const InputFile plain = parse_geojson_input("x.json", polygon("[" + ring + "]"));
-  for (const char* name : {"urn:ogc:def:crs:EPSG::4269",
-                           "EPSG:4269",
-                           "epsg:4326",
-                           "urn:ogc:def:crs:OGC:1.3:CRS84",
-                           "urn:ogc:def:crs:OGC:1.3:CRS83",
-                           "http://www.opengis.net/def/crs/EPSG/0/4258",
-                           "http://www.opengis.net/gml/srs/epsg.xml#4283",
-                           "urn:ogc:def:crs:EPSG:6.9:4617",
-                           "EPSG:4674",
-                           "EPSG:4612",
-                           "EPSG:6318",
-                           "EPSG:7844",
-                           "EPSG:8860",
-                           "EPSG:4979",
-                           "EPSG:4490",
-                           "EPSG:4267",
-                           "EPSG:6668",
-                           "EPSG:9000",
-                           "EPSG:3819",
-                           "EPSG:20041",
-                           "GCS_North_American_1983"}) {
-    CAPTURE(name);
-    const InputFile found = parse_geojson_input("x.json", in_system(name, ring));
-    CHECK(found.projection == "UTM zone 19N");
-    CHECK(found.pslg.points == plain.pslg.points);
-    CHECK(found.warnings.empty());
-  }
-  for (const int code : {0, 1, 3818, 3857, 2154, 4978, 4328, 4087, 4217, 4399, 4822, 4807, 32619, 20042, 1'000'000})
-    CHECK(!is_geographic_code(code));
-}
-
-TEST_CASE("coordinates in an unknown system are those of a plane, with a warning") {
-  const std::string degrees = "[[-70,41],[-69.9,41],[-69.9,41.1],[-70,41]]",
-                    meters = "[[700000,6000000],[700900,6000000],[700000,6000900],[700000,6000000]]";
-  for (const char* name : {"EPSG:2154", "unknown", "ESRI:104199", "EPSG:4807"}) {
-    CAPTURE(name);
-    const InputFile found = parse_geojson_input("x.json", in_system(name, degrees));
-    CHECK(found.projection.empty());
-    CHECK(found.pslg.points[0] == Point{-70, 41});
-    REQUIRE(found.warnings.size() == 1);
-    CHECK(found.warnings[0].find("'" + std::string(name) + "'") != std::string::npos);
-    CHECK(found.warnings[0].find("look like degrees") != std::string::npos);
-    const InputFile far = parse_geojson_input("x.json", in_system(name, meters));
-    CHECK(far.projection.empty());
-    CHECK(far.warnings.size() == (std::string(name) == "unknown" ? 0 : 1));  // a file that says nothing is in a plane
-  }
-  CHECK(parse_geojson_input("x.json", in_system("meters", degrees)).warnings.empty());
-}
-
-TEST_CASE("a member crs names a system in one of three ways, or is refused") {
-  const auto with = [](const std::string& crs) {
-    return R"({"type": "Polygon", "crs": )" + crs +
-           R"(, "coordinates": [[[-70,41],[-69.9,41],[-69.9,41.1],[-70,41]]]})";
-  };
-  const auto warnings = [&](const std::string& crs) { return parse_geojson_input("x.json", with(crs)).warnings; };
-  for (const char* degrees :
-       {"null", R"({"type": "EPSG", "properties": {"code": 4283}})",
-        R"({"type": "EPSG", "properties": {"code": "4326"}})",
-        R"({"type": "link", "properties": {"href": "http://www.opengis.net/def/crs/EPSG/0/4326"}})"}) {
-    CAPTURE(degrees);
-    CHECK(parse_geojson_input("x.json", with(degrees)).projection == "UTM zone 19N");
-    CHECK(warnings(degrees).empty());
-  }
-  for (const auto& [crs, name] :
-       {std::pair{R"({"type": "EPSG", "properties": {"code": 99999}})", "'EPSG:99999'"},
-        {R"({"type": "link", "properties": {"href": "http://example.com/crs/42", "type": "proj4"}})",
-         "'http://example.com/crs/42'"}}) {
-    CAPTURE(crs);
-    REQUIRE(warnings(crs).size() == 1);
-    CHECK(warnings(crs)[0].find(name) != std::string::npos);
-  }
-  for (const char* nothing : {"{}", "[]", "7", R"("EPSG:4326")", R"({"type": "name", "properties": {}})",
-                              R"({"type": "name", "properties": {"name": 4326}})",
-                              R"({"type": 5, "properties": {"code": 4326}})", R"({"properties": 1})"})
-    CHECK(error_of_text(with(nothing)).find("names no system") != std::string::npos);
-}
-
-TEST_CASE("longitudes count on across the 180th meridian") {
-  const std::string wrapped = "[[[-177.1,48.6],[179.6,49.0],[179.3,47.5],[-178.6,47.1],[-177.1,48.6]]]",
-                    beyond = "[[[182.9,48.6],[179.6,49.0],[179.3,47.5],[181.4,47.1],[182.9,48.6]]]";
-  const InputFile found = parse_geojson_input("x.json", polygon(wrapped));
-  CHECK(found.projection == "UTM zone 1N");
-  REQUIRE(found.pslg.points.size() == 4);
-  CHECK(found.pslg.points[0] == utm(-177.1 + 360, 48.6, {1, true}));
-  CHECK(std::abs(found.pslg.points[1].x - utm(-180.4, 49, {1, true}).x) < 1e-4);
-  CHECK(parse_geojson_input("x.json", polygon(beyond)).pslg.points == found.pslg.points);
-  // What only touches the meridian, or counts from 0 to 360, lies on one side of it.
-  CHECK(parse_geojson_input("x.json", polygon("[[[-180,1],[-179,1],[-179,2],[-180,1]]]")).projection == "UTM zone 1N");
-  CHECK(parse_geojson_input("x.json", polygon("[[[180,1],[181,1],[181,2],[180,1]]]")).projection == "UTM zone 1N");
-  CHECK(parse_geojson_input("x.json", polygon("[[[179,1],[180,1],[180,2],[179,1]]]")).projection == "UTM zone 60N");
-  CHECK(parse_geojson_input("x.json", polygon("[[[359,1],[1,1],[1,2],[359,1]]]")).projection == "UTM zone 31N");
-}
-
-TEST_CASE("an island that was cut along the 180th meridian is whole again") {
-  const std::string west = "[[177,-3],[180,-3],[180,-1],[179,-1],[179,1],[180,1],[180,3],[177,3],[177,-3]]",
-                    east = "[[-177,-3],[-180,-3],[-180,-1],[-179,-1],[-179,1],[-180,1],[-180,3],[-177,3],[-177,-3]]";
-  const auto collection = [&](const char* first, const char* second) {
-    return R"({"type": "FeatureCollection", "features": [)" + polygon("[" + west + "]", first) + "," +
-           polygon("[" + east + "]", second) + "]}";
-  };
-  const Pslg joined = parse_geojson_input("x.json", collection("{}", "{}")).pslg;
-  CHECK(joined.points.size() == 12);
-  CHECK(joined.segments.size() == 12);
-  // A border between regions, or between polygons with markers of their own, is one.
-  CHECK(parse_geojson_input("x.json", collection(R"({"region": 1})", R"({"region": 2})")).pslg.segments.size() == 14);
-  CHECK(parse_geojson_input("x.json", collection("{}", R"({"marker": 5})")).pslg.segments.size() == 14);
-  CHECK(parse_geojson_input("x.json", collection(R"({"region": 1})", R"({"region": 1})")).pslg.segments.size() == 12);
-}
-
-namespace {
-
-/// Between a border in the west and one in the east, from one height to the next, so that heights at which a border
-/// crosses the meridian 0 are among them.
-struct Band {
-  std::vector<double> heights, west, east;
-};
-
-/// With eastings that 10 decimals hold.
-Band random_band(std::mt19937_64& random) {
-  const auto easting = [&] { return (static_cast<double>(random() % 4097) - 2048) / 1024; };
-  Band band, whole;
-  const std::size_t rows = 3 + random() % 6;
-  for (std::size_t i = 0; i < rows; ++i) {
-    const double a = easting(), b = easting();
-    band.heights.push_back(static_cast<double>(i) / 4 + 0.125);
-    band.west.push_back(std::min(a, b) - 1. / 64);
-    band.east.push_back(std::max(a, b) + 1. / 64);
-    if (random() % 5 == 0) band.west.back() = std::min(0., band.west.back());
-  }
-  for (std::size_t i = 0; i < rows; ++i) {
-    whole.heights.push_back(band.heights[i]);
-    whole.west.push_back(band.west[i]);
-    whole.east.push_back(band.east[i]);
-    if (i + 1 == rows) break;
-    std::vector<std::pair<double, bool>> crossings;
-    for (const auto* side : {&band.west, &band.east})
-      if (((*side)[i] < 0) != ((*side)[i + 1] < 0) && (*side)[i] != 0 && (*side)[i + 1] != 0)
-        crossings.push_back({(*side)[i] / ((*side)[i] - (*side)[i + 1]), side == &band.west});
-    std::ranges::sort(crossings);
-    for (const auto& [t, is_west] : crossings) {
-      const double height = band.heights[i] + t * (band.heights[i + 1] - band.heights[i]);
-      const auto at = [&](const std::vector<double>& side) {
-        return std::round((side[i] + t * (side[i + 1] - side[i])) * 1024) / 1024;
-      };
-      whole.heights.push_back(height);
-      whole.west.push_back(is_west ? 0 : at(band.west));
-      whole.east.push_back(is_west ? at(band.east) : 0);
-    }
-  }
-  return whole;
-}
-
-using Ring = std::vector<Point>;
-
-/// Also with corners where the first and the last height cross the meridian 0.
-Ring ring_between(const std::vector<double>& heights, const std::vector<double>& west,
-                  const std::vector<double>& east) {
-  Ring ring;
-  const auto cross = [&](std::size_t i) {
-    if (west[i] < 0 && east[i] > 0) ring.push_back({0, heights[i]});
-  };
-  cross(0);
-  for (std::size_t i = 0; i < heights.size(); ++i) ring.push_back({east[i], heights[i]});
-  cross(heights.size() - 1);
-  for (std::size_t i = heights.size(); i-- > 0;)
-    if (west[i] != east[i]) ring.push_back({west[i], heights[i]});
-  return ring;
-}
-
-/// The parts of a band on one side of the meridian 0.
-std::vector<Ring> parts_of(const Band& band, bool in_east) {
-  std::vector<Ring> parts;
-  std::vector<double> heights, west, east;
-  const auto take = [&] {
-    if (heights.size() > 1) parts.push_back(ring_between(heights, west, east));
-    heights = west = east = {};
-  };
-  const auto has_part = [&](std::size_t i) { return in_east ? band.east[i] > 0 : band.west[i] < 0; };
-  for (std::size_t i = 0; i < band.heights.size(); ++i) {
-    heights.push_back(band.heights[i]);
-    west.push_back(in_east ? std::max(0., band.west[i]) : band.west[i]);
-    east.push_back(in_east ? band.east[i] : std::min(0., band.east[i]));
-    if (!has_part(i)) {
-      west.back() = east.back() = 0;
-      take();
-      heights = {band.heights[i]}, west = east = {0};
-      if (i + 1 < band.heights.size() && !has_part(i + 1)) heights = west = east = {};
-    }
-  }
-  take();
-  return parts;
-}
-
-std::string written(Ring ring, std::mt19937_64& random, const std::function<double(double)>& longitude) {
-  std::ranges::rotate(ring, ring.begin() + static_cast<std::ptrdiff_t>(random() % ring.size()));
-  if (random() % 2 == 0) std::ranges::reverse(ring);
-  ring.push_back(ring.front());
-  std::string text;
-  for (const Point& p : ring) text += fmt::format("{}[{},{}]", text.empty() ? "" : ",", longitude(p.x), p.y);
-  return "[[" + text + "]]";
-}
-
-std::vector<std::pair<double, double>> sorted_points(const Pslg& pslg) {
-  std::vector<std::pair<double, double>> points;
-  for (const Point& p : pslg.points) points.push_back({p.x, p.y});
-  std::ranges::sort(points);
-  return points;
-}
-
-}  // namespace
-
-TEST_CASE("bands across the 180th meridian are what they are across Greenwich, however they are cut and counted") {
-  auto random = testing::seeded_generator("dateline");
-  int cut = 0;
-  for (int round = 0; round < 500; ++round) {
-    CAPTURE(round);
-    const Band band = random_band(random);
-    const Pslg wanted = parse_geojson_input("x.json", polygon(written(ring_between(band.heights, band.west, band.east),
-                                                                      random, [](double x) { return x; })))
-                            .pslg;
-    const auto turned = [](double x) { return x < 0 ? x + 180 : x - 180; };
-    const auto beyond = [](double x) { return x + 180; };
-    for (const auto& longitude : {std::function<double(double)>(turned), std::function<double(double)>(beyond)}) {
-      const Pslg found =
-          parse_geojson_input("x.json",
-                              polygon(written(ring_between(band.heights, band.west, band.east), random, longitude)))
-              .pslg;
-      CHECK(sorted_points(found) == sorted_points(wanted));
-      CHECK(found.segments.size() == wanted.segments.size());
-    }
-    std::vector<std::string> parts;
-    for (const bool in_east : {false, true})
-      for (const Ring& ring : parts_of(band, in_east))
-        parts.push_back(written(ring, random, [&](double x) { return in_east ? x - 180 : x + 180; }));
-    std::ranges::shuffle(parts, random);
-    std::string all;
-    for (const std::string& part : parts) all += (all.empty() ? "" : ",") + part;
-    const Pslg found = parse_geojson_input("x.json", R"({"type": "MultiPolygon", "coordinates": [)" + all + "]}").pslg;
-    CAPTURE(all);
-    CHECK(sorted_points(found) == sorted_points(wanted));
-    CHECK(found.segments.size() == wanted.segments.size());
-    cut += parts.size() > 1 ? 1 : 0;
-  }
-  CHECK(cut > 300);
-}
-
 TEST_CASE("edges take the vertices that lie on them in degrees") {
   const auto corners_of = [](const std::string& features) {
     const Pslg pslg =
@@ -637,52 +347,4 @@ TEST_CASE("files with random edits are read, or refused with an InputError") {
   }
   CHECK(accepted > 100);
   CHECK(accepted < 4900);
-}
-
-TEST_CASE("a system that is a UTM zone is known by its name, and coordinates remain") {
-  const auto in_system = [](const std::string& name) {
-    return parse_geojson_input("x.json", R"({"type": "Polygon", "crs": {"type": "name", "properties": {"name": ")" +
-                                             name + R"("}}, "coordinates": [[[0,0],[10,0],[10,10],[0,0]]]})");
-  };
-  CHECK(in_system("urn:ogc:def:crs:EPSG::32618").projection == "UTM zone 18N");
-  CHECK(in_system("EPSG:32733").projection == "UTM zone 33S");
-  CHECK(in_system("EPSG:3035").projection.empty());
-  CHECK(in_system("EPSG:32733").pslg.points[1] == Point{10, 0});
-  CHECK(in_system("EPSG:4326").projection == "UTM zone 31N");
-}
-
-TEST_CASE("Web Mercator's meters, which are none, become meters") {
-  // 10 km on a side around 76 degrees west, 37 degrees north; corners by the formulas of the projection.
-  const auto area = [](const std::string& name, auto&& project) {
-    std::string text =
-        R"({"type": "Polygon", "crs": {"type": "name", "properties": {"name": ")" + name + R"("}}, "coordinates": [[)";
-    for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}) {
-      const auto [x, y] = project(-76 + 0.1124 * dx, 37 + 0.0901 * dy);
-      char position[80];
-      std::snprintf(position, sizeof position, "[%.9f,%.9f],", x, y);
-      text += position;
-    }
-    text.pop_back();
-    const InputFile input = parse_geojson_input("x.json", text + "]]}");
-    CHECK(input.projection == "UTM zone 18N");
-    double doubled = 0;
-    const auto& p = input.pslg.points;
-    for (std::size_t i = 0; i < 4; ++i) doubled += p[i].x * p[(i + 1) % 4].y - p[(i + 1) % 4].x * p[i].y;
-    return doubled / 2;
-  };
-  constexpr double kRadius = 6378137, kRadians = std::numbers::pi / 180, kEccentricity = 0.0818191908426215;
-  const auto degrees = [](double x, double y) { return std::pair{x, y}; };
-  const auto web = [](double x, double y) {
-    return std::pair{kRadius * kRadians * x, kRadius * std::asinh(std::tan(kRadians * y))};
-  };
-  const auto world = [](double x, double y) {
-    const double sine = std::sin(kRadians * y);
-    return std::pair{kRadius * kRadians * x,
-                     kRadius * (std::atanh(sine) - kEccentricity * std::atanh(kEccentricity * sine))};
-  };
-  const double right = area("EPSG:4326", degrees);
-  CHECK(right == doctest::Approx(1e8).epsilon(1e-3));
-  for (const char* name : {"EPSG:3857", "urn:ogc:def:crs:EPSG::3857", "EPSG:900913", "ESRI:102100", "EPSG:3785"})
-    CHECK(area(name, web) == doctest::Approx(right).epsilon(1e-9));
-  CHECK(area("urn:ogc:def:crs:EPSG::3395", world) == doctest::Approx(right).epsilon(1e-9));
 }
